@@ -1,0 +1,71 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/describe.h"
+
+namespace alula::base {
+
+/// `--set path.to.key=value`.
+struct Override {
+  std::string path;
+  std::string value;
+};
+
+/// A YAML file with positions, `extends:` resolved (at the top and in any nested map) and overrides applied.
+class YamlDocument {
+ public:
+  /// `catalogs`: folders in which a name without a slash is looked up ("q250" → q250.yaml) by `extends:`.
+  /// Throws InputError with file:line:col.
+  static YamlDocument Load(const std::filesystem::path& file, const std::vector<std::filesystem::path>& catalogs,
+                           const std::vector<Override>& overrides = {});
+  static YamlDocument Parse(std::string_view text, std::string_view file_name,
+                            const std::vector<std::filesystem::path>& catalogs = {},
+                            const std::vector<Override>& overrides = {});
+
+  YamlDocument(YamlDocument&&) noexcept;
+  YamlDocument& operator=(YamlDocument&&) noexcept;
+  ~YamlDocument();
+
+  struct Node;
+  const Node& root() const { return *root_; }
+
+ private:
+  YamlDocument();
+  std::shared_ptr<const Node> root_;
+};
+
+/// Fills the described struct from the document. Distributions ({uniform: […]}, {normal: […]}, {choice: […]}) are
+/// drawn from streams named "parameter/<path>" of `seed`. Unknown keys, wrong dimensions, values outside their range
+/// and failed checks throw InputError with file:line:col, the nearest known key suggested.
+void ReadDescribed(const YamlDocument& document, Description description, std::uint64_t seed);
+
+/// The struct as YAML: every field, units written out, numbers with as many digits as read back to the same bits.
+std::string DumpDescribed(const Description& description);
+
+/// JSON Schema (draft 2020-12) of the struct, for editors.
+std::string SchemaOf(const Description& description, std::string_view title);
+
+template <Describable Config>
+Config ReadConfig(const YamlDocument& document, std::uint64_t seed) {
+  Config config;
+  Description description;
+  Describe(description, config);
+  ReadDescribed(document, std::move(description), seed);
+  return config;
+}
+
+template <Describable Config>
+std::string DumpConfig(Config config) {
+  Description description;
+  Describe(description, config);
+  return DumpDescribed(description);
+}
+
+}  // namespace alula::base

@@ -1,0 +1,27 @@
+#include "base/error.h"
+
+namespace alula::base {
+
+namespace {
+
+std::string Compose(const SourcePosition& where, std::string_view key, std::string_view message) {
+  std::string text;
+  if (!where.file.empty()) {
+    text += where.file;
+    if (where.line > 0) text += ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
+    text += ": ";
+  }
+  if (!key.empty()) {
+    text += key;
+    text += ": ";
+  }
+  text += message;
+  return text;
+}
+
+}  // namespace
+
+InputError::InputError(const SourcePosition& where, std::string_view key, std::string_view message)
+    : std::runtime_error(Compose(where, key, message)) {}
+
+}  // namespace alula::base

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace alula::geometry {
+
+/// An RGB texture, rows from v = 0 upwards, side lengths powers of two, repeating; sRGB-like values as displayed.
+struct Texture {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> rgb;  // 3 bytes a texel
+};
+
+/// How a surface looks: diffuse colour times texture.
+struct Material {
+  std::string name;
+  Eigen::Vector3f colour = Eigen::Vector3f::Ones();
+  std::shared_ptr<const Texture> texture;  // null: plain colour
+};
+
+}  // namespace alula::geometry

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/frames.h"
+#include "stack/interface/calibration.h"
+#include "worlds/world.h"
+
+namespace alula::render {
+
+/// A thing that moves or is drawn besides the world: a shape with its material, placed anew for each picture.
+struct Mover {
+  std::string name;
+  geometry::Shape shape;
+  geometry::Material material;
+};
+
+/// Where a camera is and how it sees. Distortion is not applied here.
+struct View {
+  base::Transform X_WC;
+  stack::CameraIntrinsics intrinsics;
+};
+
+/// A camera's picture before its sensor: grey values or RGB in [0, 255], rows from the top.
+struct Picture {
+  int width = 0;
+  int height = 0;
+  int channels = 1;
+  std::vector<std::uint8_t> bytes;
+};
+
+/// Planar depth (along the optical axis), m; 0 where nothing is seen.
+struct DepthPicture {
+  int width = 0;
+  int height = 0;
+  std::vector<float> metres;
+};
+
+/// Draws the world as cameras see it. The same inputs give the same bytes.
+class CameraRenderer {
+ public:
+  virtual ~CameraRenderer() = default;
+  /// Poses of the movers, in the order they were given at the making; they hold until the next call.
+  virtual void PlaceMovers(std::span<const base::Transform> X_WM) = 0;
+  virtual void Grey(const View& view, Picture& out) = 0;
+  virtual void Colour(const View& view, Picture& out) = 0;
+  virtual void Depth(const View& view, DepthPicture& out) = 0;
+  /// "osmesa 22.3.6 llvmpipe …": goes into the numeric class.
+  virtual std::string Description() const = 0;
+};
+
+/// `maker`: "osmesa", "egl", or "auto" (OSMesa where it is there, else EGL). Throws base::InputError for another word
+/// or where the maker is not available.
+std::unique_ptr<CameraRenderer> MakeRenderer(std::string_view maker, const worlds::World& world,
+                                             std::span<const Mover> movers);
+
+}  // namespace alula::render

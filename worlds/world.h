@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/frames.h"
+#include "geometry/material.h"
+#include "geometry/shape.h"
+
+namespace alula::worlds {
+
+/// One rigid thing of the world: a shape, where it stands, and how it looks.
+struct Object {
+  std::string name;
+  geometry::Shape shape;
+  base::Transform X_WO;
+  int material = 0;            // index into World::materials
+  double texture_scale = 1.0;  // metres per texture period
+  bool collides = true;        // Bullet sees it (the renderer always does)
+};
+
+/// A square gate's opening: x along the direction of passage, z up, origin mid-opening.
+struct Gate {
+  std::string name;
+  base::Transform X_WG;
+  double opening = 0.0;  // side, m
+  double frame = 0.0;    // width of the bars, m
+};
+
+/// A mean wind with first-order gusts on top (Gauss–Markov per axis).
+struct Wind {
+  base::Vec3 mean_W = base::Vec3::Zero();  // m/s, where the air moves to
+  double gust_sigma = 0.0;                 // m/s
+  double gust_time = 2.0;                  // correlation time, s
+};
+
+struct Light {
+  base::Vec3 to_sun_W = base::Vec3::UnitZ();  // unit
+  float sun = 0.7F;                           // strength of direct light
+  float ambient = 0.35F;
+  Eigen::Vector3f sky{0.62F, 0.74F, 0.90F};  // colour of the sky
+};
+
+/// What a world is: data from which Bullet, the renderer and the criteria are built. Nothing here moves.
+struct World {
+  std::string name;
+  std::vector<geometry::Material> materials;
+  std::vector<Object> objects;
+  std::vector<Gate> gates;  // in order of passage
+  Wind wind;
+  Light light;
+  base::Transform X_WB_start;  // of the ground point under the vehicle: z = height of the pad's surface
+  double pad_radius = 0.0;     // the legs may touch `pad_object` only
+  std::string pad_object;
+  base::Vec3 target = base::Vec3::Zero();  // where the course ends
+  base::Vec3 bounds_low = base::Vec3::Zero();
+  base::Vec3 bounds_high = base::Vec3::Zero();
+};
+
+}  // namespace alula::worlds
