@@ -20,10 +20,12 @@ struct Mover {
   geometry::Material material;
 };
 
-/// Where a camera is and how it sees. Distortion is not applied here.
+/// Where a camera is and how it sees: u = fx·x/z + cx, v = fy·y/z + cy, integer coordinates being pixel centres.
+/// Distortion is not applied: a view whose coefficients are not zero throws base::InputError.
 struct View {
   base::Transform X_WC;
   stack::CameraIntrinsics intrinsics;
+  bool draw_movers = true;  // false for a camera that sits inside the vehicle it belongs to
 };
 
 /// A camera's picture before its sensor: grey values or RGB in [0, 255], rows from the top.
@@ -34,18 +36,20 @@ struct Picture {
   std::vector<std::uint8_t> bytes;
 };
 
-/// Planar depth (along the optical axis), m; 0 where nothing is seen.
+/// Planar depth (along the optical axis), m; 0 where nothing is seen within [0.05 m, 200 m].
 struct DepthPicture {
   int width = 0;
   int height = 0;
   std::vector<float> metres;
 };
 
-/// Draws the world as cameras see it. The same inputs give the same bytes.
+/// Draws the world as cameras see it. The same inputs give the same bytes. A renderer may be called from any thread,
+/// but from one at a time; several renderers may live side by side. Buffers of `out` are reused where they fit.
 class CameraRenderer {
  public:
   virtual ~CameraRenderer() = default;
-  /// Poses of the movers, in the order they were given at the making; they hold until the next call.
+  /// Poses of the movers, in the order they were given at the making; they hold until the next call (identity before
+  /// the first one). Throws base::FaultError when the number is not that of the movers.
   virtual void PlaceMovers(std::span<const base::Transform> X_WM) = 0;
   virtual void Grey(const View& view, Picture& out) = 0;
   virtual void Colour(const View& view, Picture& out) = 0;
