@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "base/frames.h"
+#include "geometry/material.h"
+
+namespace alula::worlds {
+
+/// What a texture looks like. All are irregular at every scale from two texels to a third of the texture, so that
+/// corners can be tracked from 0.3 m to 20 m, and all repeat seamlessly.
+enum class Pattern { kBrick, kPlaster, kConcrete, kRubble, kPaving, kGravel, kWood, kBark, kFoliage, kSignal, kPad };
+
+/// Two colours that the pattern's tone runs between, in [0, 1].
+struct Palette {
+  Eigen::Vector3f dark{0.1F, 0.1F, 0.1F};
+  Eigen::Vector3f light{0.9F, 0.9F, 0.9F};
+};
+
+/// A texture of `size`² texels (a power of two ≥ 16) from the stream "world/texture/<name>" of `seed`.
+std::shared_ptr<const geometry::Texture> MakeTexture(Pattern pattern, const Palette& palette, int size,
+                                                     std::uint64_t seed, std::string_view name);
+
+}  // namespace alula::worlds
