@@ -1,0 +1,67 @@
+#pragma once
+
+#include "base/describe.h"
+#include "stack/features/stereo_tracker_config.h"
+
+namespace alula::stack::estimation {
+
+/// Standstill initialisation: how the odometry judges, by images alone, that the vehicle stands.
+struct StaticInitConfig {
+  double duration = 1.0;         // s of standstill that are averaged
+  double max_median_flow = 0.5;  // px against the first image of the standstill; noise alone gives ≈ 0.1
+  int min_features = 20;         // fewer say nothing about motion
+};
+
+/// The sliding window and its noise model.
+struct WindowConfig {
+  int frames = 10;                        // states in the window; more: slower, hardly better
+  int recent_frames = 3;                  // newest frames kept whether keyframes or not; they pin the velocity
+  int iterations = 4;                     // of Levenberg–Marquardt a frame; cost is flat from the third on
+  double pixel_sigma = 1.0;               // px; KLT alone has ≈ 0.3, the rest is what calibration leaves
+  double huber = 1.5;                     // in sigmas
+  double outlier_gate = 4.0;              // px of final residual beyond which an observation is dropped
+  double min_depth = 0.15;                // m; nearer landmarks are dropped
+  double max_depth = 80.0;                // m; a landmark begins no farther
+  double consumed_share = 0.5;            // of live tracks seen by a leaving keyframe that go into the prior
+  double imu_noise_scale = 1.5;           // on the calibrated densities: vibration, sampling
+  double tilt_sigma = 0.035;              // rad, of the first state; the accelerometer decides
+  double camera_rotation_sigma = 0.0035;  // rad (0.2°), of X_BC's rotation
+  double eye_rotation_sigma = 0.00035;    // rad (0.02°), of one eye against the other
+  double time_offset_sigma = 0.002;       // s
+  bool refine_calibration = true;         // estimate those three online
+};
+
+/// When a new keyframe is due.
+struct KeyframeConfig {
+  double min_parallax = 12.0;     // px, median, rotation removed
+  double max_flow = 80.0;         // px, median: patches deform beyond
+  double min_track_share = 0.65;  // of the tracks that the reference keyframe had
+  int min_tracks = 60;
+  double max_age = 5.0;  // s
+};
+
+/// Signs that the estimate has failed.
+struct FailureConfig {
+  double max_blind_time = 4.0;  // s with fewer than `min_inliers`
+  int min_inliers = 8;
+  double max_gyro_bias = 0.3;   // rad/s
+  double max_accel_bias = 3.0;  // m/s²
+  double max_speed = 30.0;      // m/s
+  double max_jump = 1.0;        // m between the IMU's prediction and the solution
+};
+
+struct OdometryConfig {
+  features::StereoTrackerConfig tracker;
+  StaticInitConfig static_init;
+  WindowConfig window;
+  KeyframeConfig keyframe;
+  FailureConfig failure;
+};
+
+void Describe(base::Description& d, StaticInitConfig& c);
+void Describe(base::Description& d, WindowConfig& c);
+void Describe(base::Description& d, KeyframeConfig& c);
+void Describe(base::Description& d, FailureConfig& c);
+void Describe(base::Description& d, OdometryConfig& c);
+
+}  // namespace alula::stack::estimation

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "base/describe.h"
+
+namespace alula::stack::features {
+
+/// How corners are found and followed.
+struct StereoTrackerConfig {
+  int cell = 40;                    // px: side of a grid cell, one corner each; 40 gives 192 cells at 640×480
+  int max_tracks = 180;             // more cost time and bring little
+  int fast_threshold = 8;           // grey levels; below the noise everything is a corner
+  double min_corner_score = 60.0;   // smaller eigenvalue of the mean gradient matrix, (grey level/px)²
+  int window = 15;                  // px: side of the KLT patch
+  int levels = 3;                   // pyramid levels above the image
+  int iterations = 12;              // of KLT a level
+  double max_back_error = 0.6;      // px: there and back again
+  double max_epipolar_error = 1.5;  // px between the right match and its epipolar line
+  double max_appearance = 20.0;     // mean absolute grey difference of matched patches
+  double min_stereo_depth = 0.35;   // m: nearest depth searched for in the right image
+  int border = 10;                  // px kept free at the edge
+  int max_misses = 5;               // frames for which a lost corner is looked for again
+};
+
+void Describe(base::Description& d, StereoTrackerConfig& c);
+
+}  // namespace alula::stack::features
