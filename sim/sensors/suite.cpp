@@ -1,0 +1,167 @@
+#include "sim/sensors/suite.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/error.h"
+
+namespace alula::sim {
+namespace {
+
+constexpr stack::SensorId kImu{1}, kBarometer{2}, kPositionReference{3}, kBattery{4}, kStatus{5};
+constexpr std::array<stack::SensorId, 2> kEyes{stack::SensorId{10}, stack::SensorId{11}};
+
+}  // namespace
+
+void Describe(base::Description& d, SensorsConfig& c) {
+  d.Field("imu", c.imu, {.meaning = "inertial measurement unit"});
+  d.Field("stereo", c.stereo, {.meaning = "stereo camera"});
+  d.Field("barometer", c.barometer, {.meaning = "barometer"});
+  d.Field("position_reference", c.position_reference, {.meaning = "external position sensor (motion capture)"});
+  d.Field("battery_rate", c.battery_rate, {.unit = "Hz", .meaning = "rate of the battery's readings"});
+  d.Field("battery_noise", c.battery_noise, {.unit = "V", .meaning = "standard deviation of the voltage", .min = 0});
+  d.Field("status_rate", c.status_rate, {.unit = "Hz", .meaning = "rate of the autopilot's reports"});
+}
+
+void Describe(base::Description& d, AutopilotSensorsConfig& c) {
+  d.Field("imu", c.imu, {.meaning = "the autopilot's own; its rate must be that of the physics"});
+  d.Field("barometer", c.barometer, {.meaning = "the autopilot's own"});
+}
+
+stack::Calibration TrueCalibration(const SensorsConfig& config, const vehicles::VehicleBody& body,
+                                   const std::string& vehicle) {
+  stack::Calibration calibration;
+  calibration.vehicle = vehicle;
+  calibration.hull_radius = body.hull_radius;
+  calibration.hull_half_extents = body.hull_half_extents;
+  calibration.standing_height = body.standing_height;
+  calibration.status_sensor = kStatus;
+  calibration.battery_sensor = kBattery;
+  if (config.imu) {
+    const base::Vec3& a = config.imu->orientation;
+    calibration.imu = {.sensor = kImu,
+                       .name = vehicle + "/imu",
+                       .X_BI = {base::FromYawPitchRoll(a.x(), a.y(), a.z()), config.imu->position},
+                       .rate = config.imu->rate,
+                       .noise = config.imu->noise};
+  }
+  if (config.barometer) {
+    calibration.barometer = {.sensor = kBarometer, .name = vehicle + "/barometer", .noise = config.barometer->noise};
+  }
+  if (config.position_reference) {
+    calibration.position_reference = {.sensor = kPositionReference, .name = vehicle + "/position_reference"};
+  }
+  if (config.stereo) {
+    for (int eye = 0; eye < 2; ++eye) {
+      calibration.cameras.push_back({.sensor = kEyes[eye],
+                                     .name = vehicle + (eye == 0 ? "/camera.left" : "/camera.right"),
+                                     .intrinsics = IntrinsicsOf(*config.stereo),
+                                     .X_BC = EyePose(*config.stereo, eye),
+                                     .rate = config.stereo->rate,
+                                     .time_offset = {}});
+    }
+    calibration.stereo = {0, 1};
+  }
+  return calibration;
+}
+
+SensorSuite::SensorSuite(const SensorsConfig& config, base::Duration step, std::uint64_t seed,
+                         const std::string& vehicle, render::CameraRenderer* renderer, int workers)
+    : config_(config), battery_stream_(seed, vehicle + "/battery") {
+  battery_clock_.rate = config.battery_rate;
+  status_clock_.rate = config.status_rate;
+  if (config.imu) {
+    imu_.emplace(*config.imu, step, seed, vehicle + "/imu");
+    imu_clock_.rate = config.imu->rate;
+  }
+  if (config.barometer) {
+    barometer_.emplace(*config.barometer, seed, vehicle + "/barometer");
+    barometer_clock_.rate = config.barometer->rate;
+  }
+  if (config.position_reference) {
+    position_reference_.emplace(*config.position_reference, seed, vehicle + "/position_reference");
+    position_clock_.rate = config.position_reference->rate;
+  }
+  if (config.stereo) {
+    if (renderer == nullptr) throw base::FaultError("no_renderer", "cameras need a renderer");
+    images_ = std::make_unique<ImageTaker>(*config.stereo, seed, vehicle, *renderer, workers >= 2);
+    image_clock_.rate = config.stereo->rate;
+  }
+}
+
+SensorSuite::~SensorSuite() = default;
+
+void SensorSuite::Settle(const vehicles::BodyState& state) {
+  if (imu_) imu_->Settle(state);
+}
+
+void SensorSuite::Integrate(const vehicles::BodyState& before, const vehicles::BodyState& after) {
+  if (imu_) imu_->Integrate(before, after);
+}
+
+void SensorSuite::Push(stack::Measurement measurement) {
+  const auto later = [](const stack::Measurement& a, const stack::Measurement& b) { return ArrivesBefore(b, a); };
+  pending_.insert(std::upper_bound(pending_.begin(), pending_.end(), measurement, later), std::move(measurement));
+}
+
+void SensorSuite::MeasureImages(const TruthWindow& truth) {
+  while (image_clock_.Due(truth.end)) {
+    const auto seq = static_cast<std::uint32_t>(image_clock_.n);
+    const base::Time captured = image_clock_.Next();
+    images_->Request(seq, captured, truth.At(captured).X_WB);
+    for (int eye = 0; eye < 2; ++eye) {
+      Push({kEyes[eye], seq, captured, captured + config_.stereo->read_out, stack::Image{}});
+    }
+  }
+}
+
+void SensorSuite::Measure(const TruthWindow& truth, const OwnReports& reports) {
+  while (imu_ && imu_clock_.Due(truth.end)) {
+    const base::Time now = imu_clock_.Next();
+    const base::Time captured{now.ns - imu_->delay().ns};
+    const stack::ImuSample sample = imu_->Sample();
+    if (captured.ns >= 0) Push({kImu, imu_seq_++, captured, now, sample});
+  }
+  if (images_) MeasureImages(truth);
+  while (barometer_ && barometer_clock_.Due(truth.end)) {
+    const auto seq = static_cast<std::uint32_t>(barometer_clock_.n);
+    const base::Time now = barometer_clock_.Next();
+    Push({kBarometer, seq, now, now, barometer_->Sample(truth.At(now).X_WB.p.z())});
+  }
+  while (position_reference_ && position_clock_.Due(truth.end)) {
+    const auto seq = static_cast<std::uint32_t>(position_clock_.n);
+    const base::Time now = position_clock_.Next();
+    Push({kPositionReference, seq, now, now + config_.position_reference->delay,
+          position_reference_->Sample(truth.At(now).X_WB)});
+  }
+  while (battery_clock_.Due(truth.end)) {
+    const auto seq = static_cast<std::uint32_t>(battery_clock_.n);
+    const base::Time now = battery_clock_.Next();
+    stack::BatterySample sample = reports.battery;
+    sample.voltage += config_.battery_noise * battery_stream_.Gaussian();
+    Push({kBattery, seq, now, now, sample});
+  }
+  while (status_clock_.Due(truth.end)) {
+    const auto seq = static_cast<std::uint32_t>(status_clock_.n);
+    const base::Time now = status_clock_.Next();
+    Push({kStatus, seq, now, now + reports.link_delay, reports.status});
+  }
+}
+
+void SensorSuite::Collect(base::Time now, std::vector<stack::Measurement>& out) {
+  out.clear();
+  std::array<stack::Image, 2> pair;
+  while (!pending_.empty() && pending_.back().available <= now) {
+    stack::Measurement& measurement = pending_.back();
+    // Both eyes of a pair come together, the left one first.
+    if (measurement.sensor == kEyes[0]) pair = images_->Fetch();
+    if (measurement.sensor == kEyes[0]) measurement.data = std::move(pair[0]);
+    if (measurement.sensor == kEyes[1]) measurement.data = std::move(pair[1]);
+    out.push_back(std::move(measurement));
+    pending_.pop_back();
+  }
+}
+
+double SensorSuite::render_ms() const { return images_ ? images_->wall_ms() : 0.0; }
+
+}  // namespace alula::sim

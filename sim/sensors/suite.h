@@ -1,0 +1,91 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/describe.h"
+#include "sim/sensors/barometer.h"
+#include "sim/sensors/image_taker.h"
+#include "sim/sensors/imu.h"
+#include "sim/sensors/position_reference.h"
+#include "sim/sensors/stereo_camera.h"
+#include "sim/truth.h"
+#include "stack/interface/calibration.h"
+#include "stack/interface/measurement.h"
+
+namespace alula::sim {
+
+/// The sensors whose readings reach the stack.
+struct SensorsConfig {
+  std::optional<ImuConfig> imu = ImuConfig{};
+  std::optional<StereoCameraConfig> stereo;
+  std::optional<BarometerConfig> barometer = BarometerConfig{};
+  std::optional<PositionReferenceConfig> position_reference;
+  base::Rate battery_rate{10, 1};
+  double battery_noise = 0.01;  // 1σ, V
+  base::Rate status_rate{50, 1};
+};
+void Describe(base::Description& d, SensorsConfig& c);
+
+/// The sensors that the autopilot owns.
+struct AutopilotSensorsConfig {
+  ImuConfig imu = AutopilotImuDefaults();
+  BarometerConfig barometer;
+};
+void Describe(base::Description& d, AutopilotSensorsConfig& c);
+
+/// What is true of these sensors on this vehicle; sensor ids and names are given here and nowhere else.
+stack::Calibration TrueCalibration(const SensorsConfig& config, const vehicles::VehicleBody& body,
+                                   const std::string& vehicle);
+
+/// What the autopilot says of itself, and the battery, at the instant of measuring.
+struct OwnReports {
+  stack::BatterySample battery;
+  stack::VehicleStatus status;
+  base::Duration link_delay;
+};
+
+/// All sensors of one vehicle: takes samples when they are due and hands each over when it is available.
+class SensorSuite {
+ public:
+  /// `renderer`: needed where there are cameras. `workers` ≥ 2: pictures are drawn on a thread of their own.
+  SensorSuite(const SensorsConfig& config, base::Duration step, std::uint64_t seed, const std::string& vehicle,
+              render::CameraRenderer* renderer, int workers);
+  ~SensorSuite();
+
+  void Settle(const vehicles::BodyState& state);
+  /// Every physics step, for what is integrated inside.
+  void Integrate(const vehicles::BodyState& before, const vehicles::BodyState& after);
+  /// Takes every sample that falls into the window (begin, end].
+  void Measure(const TruthWindow& truth, const OwnReports& reports);
+  /// Moves everything with available ≤ now to `out` (cleared first), in the order of stack::ArrivesBefore.
+  void Collect(base::Time now, std::vector<stack::Measurement>& out);
+
+  /// Wall time spent on pictures by whichever thread drew them, ms.
+  double render_ms() const;
+
+ private:
+  struct Clock {  // the n-th sample of a rate
+    base::Rate rate;
+    std::int64_t n = 0;
+    bool Due(base::Time now) const { return rate.SampleTime(n) <= now; }
+    base::Time Next() { return rate.SampleTime(n++); }
+  };
+  void Push(stack::Measurement measurement);
+  void MeasureImages(const TruthWindow& truth);
+
+  SensorsConfig config_;
+  std::optional<Imu> imu_;
+  std::optional<Barometer> barometer_;
+  std::optional<PositionReference> position_reference_;
+  std::unique_ptr<ImageTaker> images_;
+  base::RandomStream battery_stream_;
+  Clock imu_clock_, image_clock_, barometer_clock_, position_clock_, battery_clock_, status_clock_;
+  std::uint32_t imu_seq_ = 0;
+  std::vector<stack::Measurement> pending_;  // the last one arrives first
+};
+
+}  // namespace alula::sim

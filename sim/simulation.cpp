@@ -1,0 +1,173 @@
+#include "sim/simulation.h"
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "base/error.h"
+#include "sim/finite.h"
+#include "sim/knowledge.h"
+
+namespace alula::sim {
+namespace {
+
+/// Wall time, for timing.json only.
+std::int64_t WallNow() {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+vehicles::BodyState StartState(const SimulationParts& parts) {
+  const vehicles::VehicleBody& body = parts.vehicle->body();
+  if (body.prescribed) return parts.vehicle->Prescribed({0});
+  return {StartPose(*parts.world, body.standing_height), base::Vec3::Zero(), base::Vec3::Zero()};
+}
+
+}  // namespace
+
+void Describe(base::Description& d, SimulationConfig& c) {
+  d.Field("step", c.step, {.unit = "s", .meaning = "physics and autopilot period", .min = 1e-4, .max = 0.01});
+  d.Field("link_delay", c.link_delay, {.unit = "s", .meaning = "between stack and autopilot, each way", .min = 0});
+  d.Field("friction", c.surface.friction, {.unit = "1", .meaning = "Coulomb friction of all surfaces", .min = 0});
+  d.Field("restitution", c.surface.restitution, {.unit = "1", .meaning = "bounce of all surfaces", .min = 0, .max = 1});
+}
+
+Simulation::Simulation(SimulationParts parts)
+    : parts_(std::move(parts)),
+      physics_(std::make_unique<PhysicsWorld>(*parts_.world, parts_.vehicle->body(), StartState(parts_),
+                                              parts_.config.surface)),
+      sensors_(parts_.sensors, parts_.config.step, parts_.seed, parts_.vehicle_id, parts_.renderer.get(),
+               parts_.workers),
+      autopilot_imu_(parts_.autopilot_sensors.imu, parts_.config.step, parts_.seed,
+                     parts_.vehicle_id + "/autopilot.imu"),
+      autopilot_barometer_(parts_.autopilot_sensors.barometer, parts_.seed, parts_.vehicle_id + "/autopilot.barometer"),
+      wind_(parts_.world->wind, parts_.seed) {
+  truth_ = {{0}, {0}, physics_->state(), physics_->state()};
+  sensors_.Settle(truth_.at_end);
+  autopilot_imu_.Settle(truth_.at_end);
+}
+
+Simulation::~Simulation() = default;
+
+std::optional<std::string> Simulation::Step() {
+  if (parts_.measure_time) lap_ns_ = WallNow();
+  sensors_.Measure(truth_, {parts_.vehicle->Battery(), autopilot_output_.status, parts_.config.link_delay});
+  sensors_.Collect(time_, measurements_);
+  Lap(kSensors);
+  StepStack();
+  Lap(kStack);
+  StepAutopilot();
+  Lap(kAutopilot);
+  StepBody();
+  const std::optional<std::string> reason = StepObservers();
+  Lap(kObservers);
+  ++steps_;
+  return reason;
+}
+
+void Simulation::StepStack() {
+  if (!parts_.stack) return;
+  try {
+    output_ = parts_.stack->Step(time_, measurements_);
+  } catch (const std::exception& e) {
+    throw base::FaultError("stack_exception", e.what());
+  } catch (...) {
+    throw base::FaultError("stack_exception", "the stack threw something that is no std::exception");
+  }
+  if (const std::string wrong = FirstNonFinite(output_); !wrong.empty()) {
+    throw base::FaultError("stack_nan", "the stack's " + wrong + " is not finite");
+  }
+  const base::Time due = time_ + parts_.config.link_delay;
+  if (output_.estimate) link_.push_back({due, *output_.estimate});
+  for (const stack::Command& command : output_.commands) link_.push_back({due, command});
+}
+
+void Simulation::StepAutopilot() {
+  if (!parts_.autopilot) return;
+  while (!link_.empty() && link_.front().due <= time_) {
+    std::visit([this](const auto& what) { parts_.autopilot->Receive(time_, what); }, link_.front().what);
+    link_.pop_front();
+  }
+  vehicles::AutopilotSensors sensors;
+  sensors.imu = autopilot_imu_.Sample();
+  const base::Rate rate = parts_.autopilot_sensors.barometer.rate;
+  if (rate.SampleTime(autopilot_barometer_n_) <= time_) {
+    sensors.barometer = autopilot_barometer_.Sample(truth_.At(rate.SampleTime(autopilot_barometer_n_)).X_WB.p.z());
+    ++autopilot_barometer_n_;
+  }
+  sensors.battery_voltage = parts_.vehicle->Battery().voltage;
+  autopilot_output_ = parts_.autopilot->Step(time_, sensors);
+  for (const double motor : autopilot_output_.actuators.motors) {
+    if (!std::isfinite(motor)) throw base::FaultError("autopilot_nan", "a motor command is not finite");
+  }
+}
+
+void Simulation::StepBody() {
+  const base::Duration dt = parts_.config.step;
+  const vehicles::BodyState before = physics_->state();
+  wind_W_ = wind_.At(before.X_WB.p, dt);
+  const vehicles::Wrench wrench = parts_.vehicle->Step(before, autopilot_output_.actuators, wind_W_, dt);
+  Lap(kVehicle);
+  if (parts_.vehicle->body().prescribed) {
+    physics_->MovePrescribed(parts_.vehicle->Prescribed(time_ + dt));
+  } else {
+    physics_->Step(wrench, dt);
+  }
+  Lap(kPhysics);
+  const vehicles::BodyState& after = physics_->state();
+  if (!IsFinite(after)) throw base::FaultError("numerical", "the vehicle's true state is not finite");
+  sensors_.Integrate(before, after);
+  autopilot_imu_.Integrate(before, after);
+  truth_ = {time_, time_ + dt, before, after};
+  time_ += dt;
+  Lap(kSensors);
+}
+
+std::optional<std::string> Simulation::StepObservers() {
+  const StepView view{.time = time_,
+                      .truth = truth_,
+                      .contacts = physics_->contacts(),
+                      .measurements = measurements_,
+                      .output = parts_.stack ? &output_ : nullptr,
+                      .status = autopilot_output_.status,
+                      .actuators = autopilot_output_.actuators,
+                      .wind_W = wind_W_,
+                      .physics = *physics_,
+                      .vehicle = *parts_.vehicle,
+                      .autopilot = parts_.autopilot.get(),
+                      .world = *parts_.world};
+  std::optional<std::string> reason;
+  for (Observer* observer : parts_.observers) {
+    std::optional<std::string> wish = observer->Observe(view);
+    if (!reason) reason = std::move(wish);
+  }
+  const std::optional<base::Time> end = parts_.vehicle->PrescribedEnd();
+  if (!reason && end && time_ >= *end) reason = "prescribed_end";
+  return reason;
+}
+
+void Simulation::Lap(Stage stage) {
+  if (!parts_.measure_time) return;
+  const std::int64_t now = WallNow();
+  stage_ns_[stage] += now - lap_ns_;
+  lap_ns_ = now;
+}
+
+std::vector<stack::StageTime> Simulation::Timing() const {
+  constexpr const char* kNames[kStages] = {"sensors", "stack", "autopilot", "vehicle", "physics", "observers"};
+  std::vector<stack::StageTime> stages;
+  for (int i = 0; i < kStages; ++i) {
+    stages.push_back({kNames[i], static_cast<double>(stage_ns_[i]) * 1e-6, steps_, 0.0});
+  }
+  if (parts_.sensors.stereo) stages.push_back({"sensors/render", sensors_.render_ms(), 0, 0.0});
+  if (parts_.stack) {
+    for (stack::StageTime stage : parts_.stack->Timing()) {
+      stage.name = "stack/" + stage.name;
+      stages.push_back(std::move(stage));
+    }
+  }
+  return stages;
+}
+
+}  // namespace alula::sim

@@ -1,0 +1,104 @@
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/describe.h"
+#include "sim/observer.h"
+#include "sim/physics_world.h"
+#include "sim/sensors/suite.h"
+#include "sim/truth.h"
+#include "worlds/wind.h"
+
+namespace alula::sim {
+
+struct SimulationConfig {
+  base::Duration step = base::Milliseconds(1);        // physics period, and the autopilot's
+  base::Duration link_delay = base::Milliseconds(5);  // stack ↔ autopilot, each way
+  SurfaceConfig surface;
+};
+void Describe(base::Description& d, SimulationConfig& c);
+
+/// All that a simulation is made of. Concrete types are chosen by whoever composes; the simulation knows interfaces.
+struct SimulationParts {
+  SimulationConfig config;
+  SensorsConfig sensors;
+  AutopilotSensorsConfig autopilot_sensors;
+  std::shared_ptr<const worlds::World> world;
+  std::unique_ptr<vehicles::VehicleModel> vehicle;
+  std::unique_ptr<vehicles::Autopilot> autopilot;    // null: the motors stay off
+  std::unique_ptr<stack::NavigationStack> stack;     // null: nobody listens to the sensors
+  std::unique_ptr<render::CameraRenderer> renderer;  // needed where there are cameras
+  std::vector<Observer*> observers;                  // in this order; they outlive the simulation
+  std::string vehicle_id = "vehicle0";
+  std::uint64_t seed = 1;
+  int workers = 1;           // 2 and more: pictures are drawn on a thread of their own
+  bool measure_time = true;  // keep stage times (clocks are read, nothing depends on them)
+};
+
+/// The closed loop. One step from t to t + dt:
+///
+///   1. sensors whose sample time lies in (t − dt, t] measure the truth with their own random streams
+///   2. stack.Step(t, measurements with available ≤ t)           → commands, estimate, events
+///   3. commands and estimate reach the autopilot once the link delay has passed
+///   4. autopilot.Step(t, its own sensors)                       → motor commands
+///   5. vehicle.Step(state at t, wind)                           → force and torque
+///   6. Bullet steps to t + dt (a prescribed vehicle is put where it is then); contacts are read
+///   7. observers look at the step; one may end the run with a named reason
+///
+/// Deterministic: everything follows from the parts and the seed.
+class Simulation {
+ public:
+  explicit Simulation(SimulationParts parts);
+  ~Simulation();
+
+  /// One step. Returns the reason when an observer (or the end of a prescribed motion: "prescribed_end") ends the run.
+  /// Throws base::FaultError: "stack_exception", "stack_nan", "autopilot_nan", "numerical".
+  std::optional<std::string> Step();
+
+  base::Time time() const { return time_; }
+  const TruthWindow& truth() const { return truth_; }
+  const PhysicsWorld& physics() const { return *physics_; }
+  /// Wall time by stage in ms, the stack's own stages included ("stack/…").
+  std::vector<stack::StageTime> Timing() const;
+
+ private:
+  struct InFlight {
+    base::Time due;
+    std::variant<stack::Command, stack::Estimate> what;
+  };
+  enum Stage { kSensors, kStack, kAutopilot, kVehicle, kPhysics, kObservers, kStages };
+
+  void StepStack();
+  void StepAutopilot();
+  void StepBody();
+  std::optional<std::string> StepObservers();
+  void Lap(Stage stage);
+
+  SimulationParts parts_;
+  std::unique_ptr<PhysicsWorld> physics_;
+  SensorSuite sensors_;
+  Imu autopilot_imu_;
+  Barometer autopilot_barometer_;
+  std::int64_t autopilot_barometer_n_ = 0;
+  worlds::WindField wind_;
+
+  base::Time time_;
+  TruthWindow truth_;
+  base::Vec3 wind_W_ = base::Vec3::Zero();
+  std::vector<stack::Measurement> measurements_;
+  stack::StackOutput output_;
+  std::deque<InFlight> link_;
+  vehicles::AutopilotOutput autopilot_output_;
+
+  std::uint64_t steps_ = 0;
+  std::int64_t lap_ns_ = 0;
+  std::int64_t stage_ns_[kStages] = {};
+};
+
+}  // namespace alula::sim

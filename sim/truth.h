@@ -1,0 +1,17 @@
+#pragma once
+
+#include "base/time.h"
+#include "vehicles/vehicle.h"
+
+namespace alula::sim {
+
+/// The true motion over the last physics step, from which sensors read any instant inside it.
+struct TruthWindow {
+  base::Time begin, end;
+  vehicles::BodyState at_begin, at_end;
+
+  /// Position by cubic Hermite, attitude along the geodesic, rates linearly; `t` is clamped to the window.
+  vehicles::BodyState At(base::Time t) const;
+};
+
+}  // namespace alula::sim
