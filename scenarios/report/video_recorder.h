@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "scenarios/report/mp4_writer.h"
+#include "scenarios/report/video_frame.h"
+#include "sim/observer.h"
+#include "vehicles/vehicle.h"
+#include "worlds/world.h"
+
+namespace alula::scenarios {
+
+/// Films a run: looks at every step and composes thirty pictures a second of simulated time. It never ends a run and
+/// nothing reads it, so a digest does not depend on it.
+class VideoRecorder : public sim::Observer {
+ public:
+  /// `left_camera`: the sensor whose pictures are shown; none where the vehicle has no camera.
+  /// Throws base::InputError where ffmpeg or the maker is missing.
+  VideoRecorder(const std::filesystem::path& file, std::string_view maker, const worlds::World& world,
+                const vehicles::VehicleBody& body, std::optional<stack::SensorId> left_camera, std::string title);
+
+  std::optional<std::string> Observe(const sim::StepView& step) override;
+  /// Puts the finished file in place.
+  void Finish() { writer_.Finish(); }
+
+ private:
+  void Remember(const sim::StepView& step);
+
+  std::optional<stack::SensorId> left_camera_;
+  VideoComposer composer_;
+  Mp4Writer writer_;
+  VideoMoment moment_;
+  std::int64_t pictures_ = 0;
+};
+
+}  // namespace alula::scenarios
