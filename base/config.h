@@ -19,6 +19,10 @@ struct Override {
 };
 
 /// A YAML file with positions, `extends:` resolved (at the top and in any nested map) and overrides applied.
+///
+/// `extends: ../other.yaml` (from the folder of the file that says it) or `extends: q250` (a catalog name). Maps merge;
+/// scalars, lists, distributions and maps whose `type` differs replace. Of two `extends` for one map the upper counts,
+/// so `--set vehicle.extends=q500` swaps the vehicle and keeps what the scenario changed in it.
 class YamlDocument {
  public:
   /// `catalogs`: folders in which a name without a slash is looked up ("q250" → q250.yaml) by `extends:`.
@@ -49,7 +53,8 @@ void ReadDescribed(const YamlDocument& document, Description description, std::u
 /// The struct as YAML: every field, units written out, numbers with as many digits as read back to the same bits.
 std::string DumpDescribed(const Description& description);
 
-/// JSON Schema (draft 2020-12) of the struct, for editors.
+/// JSON Schema (draft 2020-12) of the struct, for editors. Walks every alternative of every OneOf through the described
+/// instance, so give it one of its own.
 std::string SchemaOf(const Description& description, std::string_view title);
 
 template <Describable Config>
@@ -66,6 +71,14 @@ std::string DumpConfig(Config config) {
   Description description;
   Describe(description, config);
   return DumpDescribed(description);
+}
+
+template <Describable Config>
+std::string SchemaOfConfig(std::string_view title) {
+  Config config;
+  Description description;
+  Describe(description, config);
+  return SchemaOf(description, title);
 }
 
 }  // namespace alula::base

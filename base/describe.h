@@ -23,11 +23,12 @@ class Description;
 /// YAML may write any unit of the same dimension ("70 deg", "5 inch", "250 mm"); the value in memory is SI.
 struct FieldInfo {
   std::string_view unit = "1";
-  std::string_view meaning;
+  std::string_view meaning = {};
   double min = -std::numeric_limits<double>::infinity();
   double max = std::numeric_limits<double>::infinity();
   bool required = false;                    // no default: the file must give it
   std::vector<std::string_view> choices{};  // for strings and enums: the words allowed, in the order of the enum
+  bool is_path = false;  // a file name: a relative one starts at the folder of the YAML file that states it
 };
 
 /// A config struct has one function, found by argument-dependent lookup:
@@ -36,6 +37,7 @@ struct FieldInfo {
 ///     d.Field("radius", c.radius, {.unit = "m", .meaning = "propeller radius", .min = 0.01, .max = 2});
 ///   }
 ///
+/// The names `extends`, `type`, `uniform`, `normal` and `choice` are taken by the reader (config.h).
 /// It drives reading, overriding, checking, the JSON Schema, the documentation and the resolved dump (config.h).
 template <typename T>
 concept Describable = requires(Description& d, T& t) {
@@ -71,6 +73,7 @@ class Description {
       std::function<std::size_t()> index;
       std::function<void(std::size_t)> emplace;
       std::function<void(Description&)> describe;
+      std::size_t alternatives = 0;
     };
     struct ListOfOneOf {
       std::function<std::size_t()> size;
@@ -78,6 +81,7 @@ class Description {
       std::function<std::size_t(std::size_t)> index;
       std::function<void(std::size_t, std::size_t)> emplace;  // (element, alternative)
       std::function<void(std::size_t, Description&)> describe;
+      std::size_t alternatives = 0;
     };
     std::variant<Scalar, Enum, Struct, List, Optional, OneOf, ListOfOneOf> value;
   };
@@ -119,6 +123,18 @@ struct IsOptional : std::false_type {};
 template <typename T>
 struct IsOptional<std::optional<T>> : std::true_type {};
 
+/// A struct describes itself; any other element is one field without a name, of the same unit and range.
+template <typename T>
+void DescribeElement(Description& d, T& element, const FieldInfo& info) {
+  if constexpr (Describable<T>) {
+    Describe(d, element);
+  } else {
+    FieldInfo own = info;
+    own.required = false;
+    d.Field("", element, std::move(own));
+  }
+}
+
 template <typename... Ts, std::size_t... I>
 void EmplaceByIndex(std::variant<Ts...>& v, std::size_t index, std::index_sequence<I...>) {
   ((index == I ? void(v.template emplace<I>()) : void()), ...);
@@ -141,11 +157,13 @@ void Description::Field(std::string_view name, T& value, FieldInfo info) {
         Bound::Enum{[&value] { return static_cast<int>(value); }, [&value](int i) { value = static_cast<T>(i); }};
   } else if constexpr (describe_internal::IsVector<T>::value) {
     bound.value = Bound::List{[&value] { return value.size(); }, [&value](std::size_t n) { value.resize(n); },
-                              [&value](std::size_t i, Description& d) { Describe(d, value[i]); }};
+                              [&value, own = bound.info](std::size_t i, Description& d) {
+                                describe_internal::DescribeElement(d, value[i], own);
+                              }};
   } else if constexpr (describe_internal::IsOptional<T>::value) {
-    bound.value = Bound::Optional{[&value] { return value.has_value(); },
-                                  [&value](bool on) { on ? void(value.emplace()) : value.reset(); },
-                                  [&value](Description& d) { Describe(d, *value); }};
+    bound.value = Bound::Optional{
+        [&value] { return value.has_value(); }, [&value](bool on) { on ? void(value.emplace()) : value.reset(); },
+        [&value, own = bound.info](Description& d) { describe_internal::DescribeElement(d, *value, own); }};
   } else {
     static_assert(Describable<T>, "a field is a scalar, an enum, or a struct with Describe(Description&, T&)");
     bound.value = Bound::Struct{[&value](Description& d) { Describe(d, value); }};
@@ -155,24 +173,25 @@ void Description::Field(std::string_view name, T& value, FieldInfo info) {
 
 template <typename... Ts>
 void Description::OneOf(std::string_view name, std::variant<Ts...>& value, FieldInfo info) {
-  fields_.push_back({std::string(name), std::move(info),
-                     Bound::OneOf{[&value] { return value.index(); },
-                                  [&value](std::size_t i) {
-                                    describe_internal::EmplaceByIndex(value, i, std::index_sequence_for<Ts...>{});
-                                  },
-                                  [&value](Description& d) { describe_internal::DescribeActive(d, value); }}});
+  fields_.push_back(
+      {std::string(name), std::move(info),
+       Bound::OneOf{
+           [&value] { return value.index(); },
+           [&value](std::size_t i) { describe_internal::EmplaceByIndex(value, i, std::index_sequence_for<Ts...>{}); },
+           [&value](Description& d) { describe_internal::DescribeActive(d, value); }, sizeof...(Ts)}});
 }
 
 template <typename... Ts>
 void Description::ListOf(std::string_view name, std::vector<std::variant<Ts...>>& value, FieldInfo info) {
-  fields_.push_back({std::string(name), std::move(info),
-                     Bound::ListOfOneOf{
-                         [&value] { return value.size(); }, [&value](std::size_t n) { value.resize(n); },
-                         [&value](std::size_t i) { return value[i].index(); },
-                         [&value](std::size_t i, std::size_t alternative) {
-                           describe_internal::EmplaceByIndex(value[i], alternative, std::index_sequence_for<Ts...>{});
-                         },
-                         [&value](std::size_t i, Description& d) { describe_internal::DescribeActive(d, value[i]); }}});
+  fields_.push_back(
+      {std::string(name), std::move(info),
+       Bound::ListOfOneOf{[&value] { return value.size(); }, [&value](std::size_t n) { value.resize(n); },
+                          [&value](std::size_t i) { return value[i].index(); },
+                          [&value](std::size_t i, std::size_t alternative) {
+                            describe_internal::EmplaceByIndex(value[i], alternative, std::index_sequence_for<Ts...>{});
+                          },
+                          [&value](std::size_t i, Description& d) { describe_internal::DescribeActive(d, value[i]); },
+                          sizeof...(Ts)}});
 }
 
 }  // namespace alula::base
