@@ -1,0 +1,26 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "render/internal/gl_functions.h"
+#include "render/internal/projection.h"
+#include "render/internal/scene_geometry.h"
+
+namespace alula::render::internal {
+
+/// Index ranges of one material that follow each other in drawing order: one glMultiDrawElements.
+struct DrawRun {
+  int material = 0;
+  std::vector<GLsizei> counts;
+  std::vector<const void*> offsets;  // bytes into the index buffer
+};
+
+/// The batches that may be seen, nearest first. With `ignore_materials` they make one run (passes without textures).
+std::vector<DrawRun> VisibleRuns(std::span<const Batch> batches, const Frustum& frustum, const base::Vec3& eye_W,
+                                 bool ignore_materials);
+
+/// All batches in their own order, whether seen or not.
+std::vector<DrawRun> AllRuns(std::span<const Batch> batches, bool ignore_materials);
+
+}  // namespace alula::render::internal

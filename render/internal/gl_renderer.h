@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "render/camera_renderer.h"
+#include "render/internal/gl_context.h"
+#include "render/internal/gpu_scene.h"
+#include "render/internal/render_target.h"
+
+namespace alula::render::internal {
+
+/// The renderer on any GL context. Each call: bind the context, bind a framebuffer, draw what the view sees nearest
+/// first, fill the rest with sky, read back, release the context.
+class GlRenderer final : public CameraRenderer {
+ public:
+  struct Options {
+    bool cull = true;  // false draws every object in its own order: the reference for tests
+  };
+  GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& world, std::span<const Mover> movers,
+             Options options);
+
+  void PlaceMovers(std::span<const base::Transform> X_WM) override;
+  void Grey(const View& view, Picture& out) override;
+  void Colour(const View& view, Picture& out) override;
+  void Depth(const View& view, DepthPicture& out) override;
+  std::string Description() const override { return description_; }
+
+ private:
+  void DrawSurfaces(const View& view, const GlProgram& program, int channels);
+  void DrawMovers(const View& view, const GlProgram& program, int channels);
+  void DrawSky(const View& view, int channels);
+  void Begin(const View& view, PixelKind kind);
+  void CheckErrors() const;
+
+  std::unique_ptr<GlContext> context_;
+  Options options_;
+  worlds::Light light_;
+  std::vector<base::Transform> X_WM_;
+  std::string description_;
+  std::vector<std::uint8_t> rgba_;  // scratch of the colour pass
+  // Made once the context is current.
+  std::unique_ptr<GpuScene> scene_;
+  std::unique_ptr<RenderTargets> targets_;
+  std::unique_ptr<GlProgram> grey_, colour_, depth_, sky_;
+};
+
+}  // namespace alula::render::internal

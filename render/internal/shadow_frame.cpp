@@ -1,0 +1,42 @@
+#include "render/internal/shadow_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace alula::render::internal {
+
+ShadowFrame FrameShadow(const base::Vec3& to_sun_W, const base::Vec3& low, const base::Vec3& high) {
+  const base::Vec3 z = to_sun_W.normalized();
+  const base::Vec3 x = (std::abs(z.z()) < 0.99 ? base::Vec3::UnitZ() : base::Vec3::UnitY()).cross(z).normalized();
+  base::Mat3 R_SW;
+  R_SW << x.transpose(), z.cross(x).transpose(), z.transpose();
+
+  base::Vec3 near_S = base::Vec3::Constant(1e9);
+  base::Vec3 far_S = base::Vec3::Constant(-1e9);
+  for (int corner = 0; corner < 8; ++corner) {
+    const base::Vec3 p((corner & 1) != 0 ? high.x() : low.x(), (corner & 2) != 0 ? high.y() : low.y(),
+                       (corner & 4) != 0 ? high.z() : low.z());
+    near_S = near_S.cwiseMin(R_SW * p);
+    far_S = far_S.cwiseMax(R_SW * p);
+  }
+  constexpr double kMargin = 0.05;  // m along the light, so that nothing lies on the ends of the depth range
+  constexpr double kRim = 1.0 + 4.0 / kShadowSide;
+  const base::Vec3 middle = 0.5 * (near_S + far_S);
+  base::Vec3 extent = (far_S - near_S).cwiseMax(1e-3);
+  extent.head<2>() *= kRim;
+  extent.z() += 2.0 * kMargin;
+
+  const base::Vec3 flip(1.0, 1.0, -1.0);  // depth grows away from the sun
+  const base::Vec3 scale = flip.cwiseQuotient(extent);
+  ShadowFrame frame;
+  frame.texel = std::max(extent.x(), extent.y()) / kShadowSide;
+  frame.texture_from_world = Eigen::Matrix4d::Identity();
+  frame.texture_from_world.topLeftCorner<3, 3>() = scale.asDiagonal() * R_SW;
+  frame.texture_from_world.topRightCorner<3, 1>() = base::Vec3::Constant(0.5) - scale.cwiseProduct(middle);
+  frame.clip_from_world = 2.0 * frame.texture_from_world;
+  frame.clip_from_world.topRightCorner<3, 1>() -= base::Vec3::Ones();
+  frame.clip_from_world(3, 3) = 1.0;
+  return frame;
+}
+
+}  // namespace alula::render::internal

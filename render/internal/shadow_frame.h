@@ -1,0 +1,22 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "worlds/world.h"
+
+namespace alula::render::internal {
+
+inline constexpr int kShadowSide = 2048;  // texels a side of the static shadow map
+
+/// The sun's own orthographic camera.
+struct ShadowFrame {
+  Eigen::Matrix4d texture_from_world;  // to [0, 1]³; the third coordinate grows away from the sun
+  Eigen::Matrix4d clip_from_world;     // the same in [−1, 1]³
+  double texel = 0.0;                  // size of a texel across the light, m (the larger side)
+};
+
+/// Frames what casts or takes shadows: the box [low, high] (m, world axes) as the sun sees it, with a rim of two
+/// texels.
+ShadowFrame FrameShadow(const base::Vec3& to_sun_W, const base::Vec3& low, const base::Vec3& high);
+
+}  // namespace alula::render::internal

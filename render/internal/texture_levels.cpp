@@ -1,0 +1,78 @@
+#include "render/internal/texture_levels.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace alula::render::internal {
+namespace {
+
+std::uint8_t ToByte(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 255.0F) + 0.5F); }
+
+void CheckTexture(const geometry::Material& material) {
+  const geometry::Texture& t = *material.texture;
+  const bool powers = t.width > 0 && t.height > 0 && std::has_single_bit(static_cast<unsigned>(t.width)) &&
+                      std::has_single_bit(static_cast<unsigned>(t.height));
+  if (!powers || t.rgb.size() != 3UL * static_cast<std::size_t>(t.width) * static_cast<std::size_t>(t.height)) {
+    throw base::FaultError("render", "texture of material \"" + material.name + "\" is not a power of two a side");
+  }
+}
+
+TextureLevel BaseLevel(const geometry::Material& material, int channels) {
+  constexpr std::uint8_t kWhite[3] = {255, 255, 255};
+  TextureLevel level{1, 1, {}};
+  const std::uint8_t* texels = kWhite;
+  if (material.texture) {
+    CheckTexture(material);
+    level.width = material.texture->width;
+    level.height = material.texture->height;
+    texels = material.texture->rgb.data();
+  }
+  const std::size_t count = static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
+  level.bytes.reserve(count * static_cast<std::size_t>(channels));
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Vector3f rgb =
+        material.colour.cwiseProduct(Eigen::Vector3f(texels[3 * i], texels[3 * i + 1], texels[3 * i + 2]));
+    if (channels == 1) {
+      level.bytes.push_back(ToByte(0.299F * rgb[0] + 0.587F * rgb[1] + 0.114F * rgb[2]));
+    } else {
+      for (int c = 0; c < 3; ++c) level.bytes.push_back(ToByte(rgb[c]));
+    }
+  }
+  return level;
+}
+
+TextureLevel Halve(const TextureLevel& above, int channels) {
+  TextureLevel level{std::max(1, above.width / 2), std::max(1, above.height / 2), {}};
+  const int right = above.width > 1 ? 1 : 0;
+  const int up = above.height > 1 ? 1 : 0;
+  const auto at = [&](int x, int y, int c) -> int {
+    return above
+        .bytes[(static_cast<std::size_t>(y) * static_cast<std::size_t>(above.width) + static_cast<std::size_t>(x)) *
+                   static_cast<std::size_t>(channels) +
+               static_cast<std::size_t>(c)];
+  };
+  for (int y = 0; y < level.height; ++y) {
+    for (int x = 0; x < level.width; ++x) {
+      const int x0 = x * (1 + right);
+      const int y0 = y * (1 + up);
+      for (int c = 0; c < channels; ++c) {
+        const int sum = at(x0, y0, c) + at(x0 + right, y0, c) + at(x0, y0 + up, c) + at(x0 + right, y0 + up, c);
+        level.bytes.push_back(static_cast<std::uint8_t>((sum + 2) / 4));
+      }
+    }
+  }
+  return level;
+}
+
+}  // namespace
+
+std::vector<TextureLevel> TextureLevels(const geometry::Material& material, int channels) {
+  std::vector<TextureLevel> levels{BaseLevel(material, channels)};
+  while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(Halve(levels.back(), channels));
+  return levels;
+}
+
+}  // namespace alula::render::internal

@@ -1,0 +1,14 @@
+#include <cstdlib>
+
+namespace {
+
+/// What the program fixes for llvmpipe before anything draws: without it the number of threads depends on the machine.
+/// The renderer loads Mesa at run time, so that setting it before main is early enough here.
+const int kFixed = [] {
+  setenv("LP_NUM_THREADS", "0", 1);
+  setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
+  for (const char* name : {"LP_PERF", "GALLIVM_PERF", "GALLIUM_OVERRIDE_CPU_CAPS"}) unsetenv(name);
+  return 0;
+}();
+
+}  // namespace
