@@ -30,12 +30,13 @@ std::vector<DrawRun> Runs(std::span<const Batch> batches, std::span<const std::u
 
 }  // namespace
 
-std::vector<DrawRun> VisibleRuns(std::span<const Batch> batches, const Frustum& frustum, const base::Vec3& eye_W,
-                                 bool ignore_materials) {
+std::vector<DrawRun> NearestFirst(std::span<const Batch> batches, const Frustum* frustum, const base::Vec3& eye_W,
+                                  bool ignore_materials) {
   const Eigen::Vector3f eye = eye_W.cast<float>();
   std::vector<std::pair<float, std::uint32_t>> seen;  // distance, batch; the number breaks ties
   for (std::uint32_t i = 0; i < batches.size(); ++i) {
-    if (batches[i].index_count == 0 || !MayBeVisible(frustum, batches[i].low, batches[i].high)) continue;
+    if (batches[i].index_count == 0) continue;
+    if (frustum != nullptr && !MayBeVisible(*frustum, batches[i].low, batches[i].high)) continue;
     seen.emplace_back(MiddleDistance(batches[i], eye), i);
   }
   std::sort(seen.begin(), seen.end());

@@ -16,11 +16,12 @@ struct DrawRun {
   std::vector<const void*> offsets;  // bytes into the index buffer
 };
 
-/// The batches that may be seen, nearest first. With `ignore_materials` they make one run (passes without textures).
-std::vector<DrawRun> VisibleRuns(std::span<const Batch> batches, const Frustum& frustum, const base::Vec3& eye_W,
-                                 bool ignore_materials);
+/// The batches that may be seen (all of them where `frustum` is null), nearest first. With `ignore_materials` they make
+/// one run (passes without textures).
+std::vector<DrawRun> NearestFirst(std::span<const Batch> batches, const Frustum* frustum, const base::Vec3& eye_W,
+                                  bool ignore_materials);
 
-/// All batches in their own order, whether seen or not.
+/// All batches in their own order.
 std::vector<DrawRun> AllRuns(std::span<const Batch> batches, bool ignore_materials);
 
 }  // namespace alula::render::internal

@@ -109,10 +109,8 @@ void GlRenderer::DrawSurfaces(const View& view, const GlProgram& program, int ch
   if (view.draw_movers) DrawMovers(view, program, channels);
   program.SetAffine("world_from_model", base::Transform{});
   const std::vector<Batch>& statics = scene_->geometry().statics;
-  const bool untextured = channels == 0;
-  scene_->Draw(options_.cull ? VisibleRuns(statics, FrustumOf(clip_from_world), view.X_WC.p, untextured)
-                             : AllRuns(statics, untextured),
-               channels);
+  const Frustum frustum = FrustumOf(clip_from_world);
+  scene_->Draw(NearestFirst(statics, options_.cull ? &frustum : nullptr, view.X_WC.p, channels == 0), channels);
 }
 
 void GlRenderer::DrawMovers(const View& view, const GlProgram& program, int channels) {

@@ -16,7 +16,7 @@ namespace alula::render::internal {
 class GlRenderer final : public CameraRenderer {
  public:
   struct Options {
-    bool cull = true;  // false draws every object in its own order: the reference for tests
+    bool cull = true;  // false draws what lies outside the view too: the reference for tests
   };
   GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& world, std::span<const Mover> movers,
              Options options);

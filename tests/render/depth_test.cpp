@@ -40,8 +40,8 @@ struct TriangleSoup {
       const double s = (origin - a).dot(normal) / along;
       if (s < internal::kNear || (nearest > 0.0 && s >= nearest)) continue;
       const base::Vec3 e = (origin - a).cross(direction);
-      const double v = -ac.dot(e) / along;
-      const double w = ab.dot(e) / along;
+      const double v = ac.dot(e) / along;
+      const double w = -ab.dot(e) / along;
       if (v >= 0.0 && w >= 0.0 && v + w <= 1.0) nearest = s;
     }
     return nearest;

@@ -7,7 +7,9 @@ namespace {
 const int kFixed = [] {
   setenv("LP_NUM_THREADS", "0", 1);
   setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
-  for (const char* name : {"LP_PERF", "GALLIVM_PERF", "GALLIUM_OVERRIDE_CPU_CAPS"}) unsetenv(name);
+  unsetenv("LP_PERF");
+  unsetenv("GALLIVM_PERF");
+  unsetenv("GALLIUM_OVERRIDE_CPU_CAPS");
   return 0;
 }();
 

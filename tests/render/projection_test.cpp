@@ -36,7 +36,8 @@ base::Vec2 BrightCentroid(const Picture& picture) {
   return sum / count;
 }
 
-/// A bright plate x ∈ {0}, |y|, |z| ≤ 0.4 before a dark wall.
+/// A bright plate with its face at x = 0, |y|, |z| ≤ 0.4, before a dark wall. Eyes with |y|, |z| < 0.4 see none of its
+/// sides.
 worlds::World Plate() {
   worlds::World world;
   world.light = test::Shadowless();
@@ -52,7 +53,7 @@ TEST(Projection, OutlineLiesWherePinholeEquationsPutItInBothEyes) {
   const auto renderer = MakeRenderer("auto", Plate(), {});
   base::RandomStream random(7, "outline");
   for (int trial = 0; trial < 12; ++trial) {
-    const base::Vec3 eye(-random.Uniform(1.0, 2.5), random.Uniform(-0.5, 0.5), random.Uniform(-0.5, 0.5));
+    const base::Vec3 eye(-random.Uniform(1.0, 2.5), random.Uniform(-0.25, 0.25), random.Uniform(-0.35, 0.35));
     View view = LookAt(eye, {0, random.Uniform(-0.1, 0.1), random.Uniform(-0.1, 0.1)}, random.Uniform(-0.5, 0.5));
     view.intrinsics.cx += random.Uniform(-8, 8);
     const View left = view;
@@ -70,9 +71,9 @@ TEST(Projection, OutlineLiesWherePinholeEquationsPutItInBothEyes) {
           const double inside = InsideBy(corners, base::Vec2(u, v));
           const bool bright = picture.bytes[static_cast<std::size_t>(v * 640 + u)] >= 128;
           near_edge += std::abs(inside) < 0.1 ? 1 : 0;
-          // From the sides of the plate (2 cm thick) a sliver may show outside the front's outline.
-          if (inside > 0.02) EXPECT_TRUE(bright) << u << " " << v << " inside by " << inside;
-          if (inside < -20.0) EXPECT_FALSE(bright) << u << " " << v;
+          if (std::abs(inside) > 0.02) {
+            EXPECT_EQ(bright, inside > 0.0) << u << " " << v << " inside by " << inside;
+          }
         }
       }
       EXPECT_GT(near_edge, 20);  // the bound above was put to the test
@@ -107,7 +108,7 @@ TEST(Projection, RowsComeFromTheTopAndColumnsFromTheLeft) {
   const base::Vec2 at = Project(view, {0.9, 3.0, 2.0});
   EXPECT_LT(at.x(), 200);
   EXPECT_LT(at.y(), 160);
-  EXPECT_GT(picture.bytes[static_cast<std::size_t>(std::lround(at.y()) * 640 + std::lround(at.x()))], 200);
+  EXPECT_GT(picture.bytes[static_cast<std::size_t>(std::lround(at.y()) * 640 + std::lround(at.x()))], 128);
 }
 
 TEST(Projection, BoxesBesideTheViewAreCulledAndSeenOnesKept) {

@@ -97,7 +97,7 @@ TEST(Renderer, MayBeUsedFromOneThreadAfterAnother) {
   }
 }
 
-TEST(Renderer, CullingAndDrawingOrderDoNotChangeThePicture) {
+TEST(Renderer, CullingDoesNotChangeThePicture) {
   const worlds::World world = Clutter(4, 120);
   GlRenderer culled(test::MakeContext("osmesa"), world, {}, {.cull = true});
   GlRenderer whole(test::MakeContext("osmesa"), world, {}, {.cull = false});
