@@ -13,6 +13,10 @@ find_package(PkgConfig REQUIRED)
 add_library(alula_options INTERFACE)
 target_compile_options(alula_options INTERFACE -ffp-contract=off -Wall -Wextra -Wshadow -Wnon-virtual-dtor -Wconversion
   -Wno-sign-conversion -Werror)
+# GCC 12 at -O3 sees overlaps in `"text" + std::string` that are not there (GCC bug 105651), and its other guesses from
+# data flow change with the optimisation level: they inform, they do not stop a build.
+target_compile_options(alula_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict -Wno-error=maybe-uninitialized
+  -Wno-error=array-bounds -Wno-error=stringop-overflow -Wno-error=stringop-overread>)
 target_include_directories(alula_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_include_directories(alula_options SYSTEM INTERFACE ${EIGEN3_INCLUDE_DIRS})
 target_compile_definitions(alula_options INTERFACE EIGEN_DONT_PARALLELIZE)
