@@ -25,6 +25,7 @@ struct OccupancyMapConfig {
   double min_log_odds = -2.0;    // clamp of free cells: two near hits must be able to overrule
   double occupied_from = 0.35;   // log-odds; above: occupied
   double free_below = -0.35;     // log-odds; below: free; between the two: unknown
+  double guard_sigmas = 1.5;     // nothing is carved within this·σ_z (at least one cell) of a hit along its own ray
   double min_hit_share = 0.15;   // share of the pixels a facing cell would fill that must agree before it counts as hit
   double max_clearance = 1.5;    // m, where the distance fields are cut
 };

@@ -12,8 +12,9 @@ namespace alula::stack::mapping {
 struct StereoDepthConfig {
   double min_depth = 0.45;  // m; nearer things are not matched: sets the disparity range (and the cost)
   int block = 5;            // px, odd; larger is smoother and fattens thin bars more
-  int smoothness = 3;  // penalty scale of SGBM (P1 = 8·s·block², P2 = 4·P1); too low: noise, too high: bars melt
-  int uniqueness = 8;  // %, by how much the best cost must beat the second
+  double smoothness =
+      1.0;  // penalty scale of SGBM (P1 = 8·s·block², P2 = 4·P1); too low: noise, too high: thin bars melt
+  int uniqueness = 8;                 // %, by how much the best cost must beat the second
   double left_right_tolerance = 1.0;  // px; a match that does not come back this near is an occlusion
   int speckle_area = 60;              // px; smaller islands of disparity are dropped
   double speckle_range = 1.5;         // px, jump that separates islands
