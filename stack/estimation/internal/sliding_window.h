@@ -1,0 +1,140 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/frames.h"
+#include "base/time.h"
+#include "stack/estimation/imu_preintegration.h"
+#include "stack/estimation/internal/imu_factor.h"
+#include "stack/estimation/internal/linear_system.h"
+#include "stack/estimation/internal/reprojection_factor.h"
+#include "stack/estimation/odometry.h"
+#include "stack/estimation/odometry_config.h"
+#include "stack/features/camera_model.h"
+
+namespace alula::stack::estimation {
+
+/// Motion of the IMU frame and its biases.
+struct ImuState {
+  base::Time stamp;
+  base::Transform X_OI;
+  base::Vec3 v_OI = base::Vec3::Zero();
+  base::Vec3 gyro_bias = base::Vec3::Zero();
+  base::Vec3 accel_bias = base::Vec3::Zero();
+};
+
+/// How well the first state of a window is known, 1σ.
+struct StartSigmas {
+  double position = 1e-3;    // m; with heading it fixes the gauge
+  double heading = 1e-3;     // rad
+  double tilt = 0.035;       // rad
+  double velocity = 0.02;    // m/s
+  double gyro_bias = 0.005;  // rad/s
+  double accel_bias = 0.1;   // m/s²
+};
+
+/// A landmark seen in one stereo pair, normalised coordinates.
+struct Sighting {
+  std::uint64_t track = 0;
+  base::Vec2 left = base::Vec2::Zero();
+  std::optional<base::Vec2> right;
+};
+
+/// The state, carried forward by the IMU from `from` to the end of `samples` (which begin at from.stamp).
+ImuState Propagate(const ImuState& from, const std::vector<TimedImu>& samples);
+
+/// The estimator's window: keyframes and the newest frames, their landmarks, the rig's refinement and a prior that
+/// holds what has left. It knows tracks, not images. One turn: AddFrame → Solve → RejectOutliers → Slide.
+///
+/// Frames that were no keyframes leave without a trace: their sights are dropped and their IMU interval is joined to
+/// the next one. The oldest keyframe is marginalised: with its speed and biases, with the landmarks that nobody
+/// follows any more, and with a share of those that are still followed (their sights so far go into the prior; the
+/// track goes on as a landmark without a past, so that nothing is counted twice). The other followed landmarks just
+/// lose that sight.
+class SlidingWindow {
+ public:
+  SlidingWindow(const features::StereoRig& rig, const base::Transform& X_IC, const ImuNoise& noise,
+                const WindowConfig& config);
+
+  /// Forgets everything but the rig's refinement and begins with one state.
+  void Start(const ImuState& state, const StartSigmas& sigmas, const std::vector<Sighting>& sightings);
+  /// Adds a state at the end of `samples`, which begin at the newest state's stamp.
+  void AddFrame(const std::vector<TimedImu>& samples, const std::vector<Sighting>& sightings, bool keyframe);
+  /// Returns false where the solver failed; the states are as before then.
+  bool Solve();
+  /// Drops sights that do not fit and returns the tracks that should be followed no more.
+  std::vector<std::uint64_t> RejectOutliers();
+  void Slide();
+
+  ImuState Newest() const;
+  /// Position of a track's landmark in O, m.
+  std::optional<base::Vec3> Landmark(std::uint64_t track) const;
+  bool SeenInNewest(std::uint64_t track) const;
+  /// Covariance of the newest state: (δp, δθ, δv, δb_g, δb_a), IMU frame.
+  Mat15 NewestCovariance() const;
+  CalibrationEstimate Rig() const;
+  /// Left camera in the IMU frame, with the refinement.
+  base::Transform X_IC() const;
+  std::size_t frames() const { return frames_.size(); }
+  std::size_t landmarks() const { return landmarks_.size(); }
+
+ private:
+  struct Frame {
+    std::size_t slot = 0;
+    base::Time stamp;
+    bool keyframe = false;
+    base::Vec3 gyro = base::Vec3::Zero();  // reading at the stamp, rad/s
+    PairModel pair;
+    std::unique_ptr<ImuPreintegration> integral;  // from the frame before; null for the first
+    std::unique_ptr<ImuFactor> factor;            // of `integral`
+  };
+  struct Sight {
+    std::size_t slot = 0;
+    std::unique_ptr<ReprojectionFactor> left, right;
+  };
+  struct MapPoint {
+    std::size_t slot = 0;
+    std::vector<Sight> sights;
+  };
+
+  double* rig_parameters() const { return arena_.get(); }
+  double* pose(std::size_t slot) const { return arena_.get() + pose_begin_ + 8 * slot; }
+  double* speed_bias(std::size_t slot) const { return arena_.get() + speed_begin_ + 10 * slot; }
+  double* point(std::size_t slot) const { return arena_.get() + point_begin_ + 4 * slot; }
+
+  void MakeArena();
+  void WriteState(std::size_t slot, const ImuState& state);
+  ImuState ReadState(const Frame& frame) const;
+  Frame& AppendFrame(base::Time stamp, bool keyframe, const base::Vec3& gyro);
+  void AddSightings(const Frame& frame, const std::vector<Sighting>& sightings);
+  std::optional<std::size_t> NewPoint(const Frame& frame, const Sighting& sighting);
+  void RefreshModels();
+  void DropUnusable();
+  void ErasePoint(std::map<std::uint64_t, MapPoint>::iterator it);
+  void EraseSights(std::size_t slot);
+  void RemoveFrame(std::size_t index);
+  void MarginaliseOldest();
+  bool UsesPoint(const MapPoint& p) const { return p.sights.size() >= 2; }
+  const Frame* FrameOf(std::size_t slot) const;
+  /// Largest error of a sight at the current estimate, px; none where it lies behind the camera.
+  std::optional<double> SightError(const Sight& sight, const double* landmark) const;
+
+  features::StereoRig rig_;
+  base::Transform X_IC_, X_RL_;
+  ImuNoise noise_;
+  WindowConfig config_;
+  std::size_t max_points_;
+  std::size_t pose_begin_ = 0, speed_begin_ = 0, point_begin_ = 0, arena_size_ = 0;
+  std::unique_ptr<double[]> arena_;  // all parameters in one piece: the solver orders blocks by their address
+  std::vector<std::size_t> free_slots_, free_points_;  // taken from the back
+  std::vector<std::unique_ptr<Frame>> frames_;         // oldest first
+  std::map<std::uint64_t, MapPoint> landmarks_;        // by track: a fixed order
+  LinearPrior prior_;
+  std::uint64_t consumption_ = 0;  // counts followed landmarks of leaving keyframes
+};
+
+}  // namespace alula::stack::estimation

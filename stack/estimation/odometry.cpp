@@ -1,0 +1,347 @@
+#include "stack/estimation/odometry.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "stack/estimation/internal/sliding_window.h"
+#include "stack/estimation/static_initialiser.h"
+#include "stack/features/stereo_tracker.h"
+#include "stack/features/translation_ransac.h"
+
+namespace alula::stack::estimation {
+namespace {
+
+using base::Mat3;
+using base::Mat6;
+using base::Time;
+using base::Transform;
+using base::Vec2;
+using base::Vec3;
+using features::Track;
+
+constexpr double kRansacGate = 3.0;  // px
+constexpr int kRansacTrials = 40;    // two points: 80 % inliers fail with 1e-18
+
+/// Wall time of a scope in ms, for profiling alone.
+class StageClock {
+ public:
+  explicit StageClock(double& total) : total_(total), begin_(std::chrono::steady_clock::now()) {}
+  ~StageClock() {
+    total_ += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin_).count();
+  }
+  StageClock(const StageClock&) = delete;
+  StageClock& operator=(const StageClock&) = delete;
+
+ private:
+  double& total_;
+  std::chrono::steady_clock::time_point begin_;
+};
+
+double Median(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+const ImuCalibration& ImuOf(const Calibration& calibration) {
+  if (!calibration.imu) throw base::InputError("calibration: no IMU; stereo-inertial odometry needs one");
+  return *calibration.imu;
+}
+
+Transform LeftCamera(const Calibration& calibration) {
+  return calibration.cameras.at(static_cast<std::size_t>((*calibration.stereo)[0])).X_BC;
+}
+
+}  // namespace
+
+class StereoInertialOdometry::Impl {
+ public:
+  Impl(const Calibration& calibration, const OdometryConfig& config, const Transform& X_OB_start)
+      : config_(config),
+        rig_(features::MakeRig(calibration)),
+        imu_(ImuOf(calibration)),
+        X_OB_start_(X_OB_start),
+        tracker_(rig_, config.tracker),
+        window_(rig_, imu_.X_BI.Inverse() * LeftCamera(calibration), imu_.noise, config.window) {}
+
+  FrameResult Process(const FrameInput& input) {
+    ++timing_.frames;
+    FrameResult result;
+    result.seq = input.seq;
+    result.reset_counter = reset_counter_;
+    for (const TimedImu& s : input.imu) {
+      if (samples_.empty() || s.time > samples_.back().time) samples_.push_back(s);
+    }
+    if (samples_.empty()) {
+      result.note = "no inertial samples yet";
+    } else if (last_stamp_ && input.stamp <= *last_stamp_) {
+      result.note = "image is not newer than the one before";
+    } else if (running_) {
+      Run(input, result);
+    } else {
+      Initialise(input, result);
+    }
+    if (!last_stamp_ || input.stamp > *last_stamp_) last_stamp_ = input.stamp;
+    if (running_) Report(result);
+    return result;
+  }
+
+  CalibrationEstimate Rig() const { return window_.Rig(); }
+  OdometryTiming Timing() const { return timing_; }
+
+ private:
+  // --- standing still ---------------------------------------------------------------------------------------------
+
+  void Initialise(const FrameInput& input, FrameResult& result) {
+    std::vector<Track> tracks = tracker_.Follow(input.left, input.right, Transform());
+    std::vector<double> flow;
+    for (const Track& t : tracks) flow.push_back((t.left - t.reference).norm() * rig_.left.fx);
+    result.tracked = static_cast<int>(tracks.size());
+    const bool few = result.tracked < config_.static_init.min_features;
+    const bool moves = Median(flow) > config_.static_init.max_median_flow;
+    if (!still_since_ || few || moves) {
+      result.note = !still_since_ ? "waiting for standstill" : few ? "too few corners to judge standstill" : "moving";
+      tracker_.MakeReference();
+      still_since_ = input.stamp;
+      std::erase_if(samples_, [&input](const TimedImu& s) { return s.time < input.stamp; });
+      return;
+    }
+    if ((input.stamp - *still_since_).Seconds() < config_.static_init.duration) {
+      result.note = "standing still, averaging";
+      return;
+    }
+    const double yaw = base::Yaw(X_OB_start_.q);
+    const std::optional<StandstillState> standing =
+        FromStandstill(Cut(samples_, *still_since_, input.stamp), imu_.X_BI.q.conjugate(), yaw);
+    if (!standing) {
+      result.note = "images stand still, the IMU does not read gravity alone";
+      still_since_.reset();
+      return;
+    }
+    ImuState state;
+    state.stamp = input.stamp;
+    state.X_OI.q = standing->q_OI;
+    const base::Quat q_OB = standing->q_OI * imu_.X_BI.q.conjugate();
+    state.X_OI.p = X_OB_start_.p + q_OB * imu_.X_BI.p;
+    state.gyro_bias = standing->gyro_bias;
+    StartSigmas sigmas;
+    sigmas.tilt = config_.window.tilt_sigma;
+    sigmas.gyro_bias = 1e-3;  // the mean of a second, rotors turning
+    if (imu_.noise.accelerometer_turn_on_bias > 0) sigmas.accel_bias = imu_.noise.accelerometer_turn_on_bias;
+    Begin(state, sigmas);
+    running_ = true;
+  }
+
+  /// (Re)starts the window at a state, with the newest pair as keyframe.
+  void Begin(const ImuState& state, const StartSigmas& sigmas) {
+    window_.Start(state, sigmas, Sightings(tracker_.MakeReference()));
+    last_keyframe_ = last_seeing_ = state.stamp;
+    X_OC_reference_ = window_.Newest().X_OI * window_.X_IC();
+    window_covariance_ = window_.NewestCovariance();
+  }
+
+  // --- flying -----------------------------------------------------------------------------------------------------
+
+  void Run(const FrameInput& input, FrameResult& result) {
+    const ImuState before = window_.Newest();
+    const std::vector<TimedImu> samples = Cut(samples_, before.stamp, input.stamp);
+    if (samples_.back().time < input.stamp) result.note = "inertial samples end before the image";
+    std::erase_if(samples_, [&](const TimedImu& s) { return s.time < input.stamp - base::Milliseconds(100); });
+    const ImuState predicted = Propagate(before, samples);
+
+    std::vector<Track> tracks = Follow(input, predicted, result);
+    const bool keyframe = KeyframeDue(tracks, predicted);
+    if (keyframe) {
+      const StageClock clock(timing_.detect);
+      tracks = tracker_.MakeReference();
+      last_keyframe_ = input.stamp;
+    }
+    bool solved = false;
+    {
+      const StageClock clock(timing_.solve);
+      window_.AddFrame(samples, Sightings(tracks), keyframe);
+      solved = window_.Solve();
+      tracker_.Drop(window_.RejectOutliers());
+    }
+    result.inliers = 0;
+    for (const Track& t : tracks) result.inliers += window_.SeenInNewest(t.id) ? 1 : 0;
+    if (keyframe) X_OC_reference_ = window_.Newest().X_OI * window_.X_IC();
+    View(tracks, result);
+
+    const std::string failure = Failure(solved, predicted, input.stamp, result.inliers);
+    if (!failure.empty()) {
+      Reset(predicted, failure, result);
+      return;
+    }
+    {
+      const StageClock clock(timing_.covariance);
+      if (timing_.frames % kCovariancePeriod == 0 || keyframe) window_covariance_ = window_.NewestCovariance();
+    }
+    const StageClock clock(timing_.marginalise);
+    window_.Slide();
+  }
+
+  /// Corners in the new pair, without those that do not move as the scene does.
+  std::vector<Track> Follow(const FrameInput& input, const ImuState& predicted, FrameResult& result) {
+    const StageClock clock(timing_.track);
+    const Transform X_OC = predicted.X_OI * window_.X_IC();
+    std::vector<Track> tracks = tracker_.Follow(input.left, input.right, X_OC_reference_.Inverse() * X_OC);
+    result.tracked = static_cast<int>(tracks.size());
+
+    const Transform X_CO = X_OC.Inverse();
+    std::vector<features::TurnedPoint> points;
+    std::vector<std::size_t> index;
+    for (std::size_t i = 0; i < tracks.size(); ++i) {
+      const std::optional<Vec3> p_O = window_.Landmark(tracks[i].id);
+      if (!p_O) continue;
+      index.push_back(i);
+      points.push_back({X_CO.q * *p_O, tracks[i].left});
+    }
+    base::RandomStream random(input.seq, "odometry/translation_ransac");
+    const features::TranslationResult motion =
+        features::FindTranslation(points, X_CO.p, kRansacGate / rig_.left.fx, kRansacTrials, random);
+    std::vector<std::uint64_t> outliers;
+    for (std::size_t k = 0; k < index.size(); ++k) {
+      if (!motion.inlier[k]) outliers.push_back(tracks[index[k]].id);
+    }
+    tracker_.Drop(outliers);
+    std::erase_if(tracks, [&outliers](const Track& t) {
+      return std::find(outliers.begin(), outliers.end(), t.id) != outliers.end();
+    });
+    return tracks;
+  }
+
+  bool KeyframeDue(const std::vector<Track>& tracks, const ImuState& predicted) const {
+    const KeyframeConfig& c = config_.keyframe;
+    const double age = (predicted.stamp - last_keyframe_).Seconds();
+    const double count = static_cast<double>(tracks.size());
+    if (age > c.max_age || count < c.min_track_share * tracker_.ReferenceCount()) return true;
+    // In a blind stretch every image would be a keyframe; twice a second is enough to look for corners again.
+    if (count < c.min_tracks && age > 0.5) return true;
+    const base::Quat q_CR = (X_OC_reference_.q.conjugate() * predicted.X_OI.q * window_.X_IC().q).conjugate();
+    std::vector<double> flow, parallax;
+    for (const Track& t : tracks) {
+      flow.push_back((t.left - t.reference).norm());
+      const Vec3 turned = q_CR * Vec3(t.reference.homogeneous());
+      if (turned.z() > 0.1) parallax.push_back((turned.head<2>() / turned.z() - t.left).norm());
+    }
+    return Median(std::move(parallax)) * rig_.left.fx > c.min_parallax ||
+           Median(std::move(flow)) * rig_.left.fx > c.max_flow;
+  }
+
+  static std::vector<Sighting> Sightings(const std::vector<Track>& tracks) {
+    std::vector<Sighting> sightings;
+    for (const Track& t : tracks) sightings.push_back({t.id, t.left, t.right});
+    return sightings;
+  }
+
+  // --- failing ----------------------------------------------------------------------------------------------------
+
+  std::string Failure(bool solved, const ImuState& predicted, Time stamp, int inliers) {
+    const FailureConfig& c = config_.failure;
+    const ImuState state = window_.Newest();
+    if (inliers >= c.min_inliers) last_seeing_ = stamp;
+    failed_solves_ = solved ? 0 : failed_solves_ + 1;
+    if (failed_solves_ > 3) return "the solver failed repeatedly";
+    if ((stamp - last_seeing_).Seconds() > c.max_blind_time) return "blind for too long";
+    if (state.gyro_bias.norm() > c.max_gyro_bias) return "gyroscope bias out of range";
+    if (state.accel_bias.norm() > c.max_accel_bias) return "accelerometer bias out of range";
+    if (state.v_OI.norm() > c.max_speed) return "speed out of range";
+    if ((state.X_OI.p - predicted.X_OI.p).norm() > c.max_jump) return "the solution left the IMU's prediction";
+    return {};
+  }
+
+  /// Starts anew where the IMU says that the vehicle is.
+  void Reset(const ImuState& predicted, const std::string& why, FrameResult& result) {
+    ImuState state = predicted;
+    state.accel_bias.setZero();
+    if (state.gyro_bias.norm() > config_.failure.max_gyro_bias) state.gyro_bias.setZero();
+    if (state.v_OI.norm() > config_.failure.max_speed) state.v_OI.setZero();
+    StartSigmas sigmas;
+    sigmas.tilt = 0.05;
+    sigmas.velocity = 0.5;
+    sigmas.gyro_bias = 0.01;
+    sigmas.accel_bias = 0.3;
+    Begin(state, sigmas);
+    failed_solves_ = 0;
+    ++reset_counter_;
+    result.reset_counter = reset_counter_;
+    result.note = "reset: " + why;
+  }
+
+  // --- reporting --------------------------------------------------------------------------------------------------
+
+  void Report(FrameResult& result) const {
+    const ImuState s = window_.Newest();
+    const Transform X_IB = imu_.X_BI.Inverse();
+    NavState& out = result.state;
+    out.stamp = s.stamp;
+    out.X_OB = s.X_OI * X_IB;
+    out.gyro_bias = s.gyro_bias;
+    out.accel_bias = s.accel_bias;
+    const TimedImu now = Cut(samples_, s.stamp, s.stamp).front();
+    const Vec3 w_B = imu_.X_BI.q * (now.gyro - s.gyro_bias);
+    out.v_OB = s.v_OI - out.X_OB.q * w_B.cross(imu_.X_BI.p);
+    result.initialised = true;
+
+    // δp_OB = δp_OI − R_OI [p_IB]× δθ_I and δθ_B = R_BI δθ_I.
+    Mat6 A = Mat6::Identity();
+    A.topRightCorner<3, 3>() = -s.X_OI.R() * base::Hat(X_IB.p);
+    A.bottomRightCorner<3, 3>() = imu_.X_BI.R();
+    const Mat6 pose = window_covariance_.topLeftCorner<6, 6>();
+    result.pose_covariance = A * pose * A.transpose();
+    result.velocity_covariance = window_covariance_.block<3, 3>(6, 6);
+    if (result.note.empty() && result.inliers < config_.failure.min_inliers)
+      result.note = "few corners: mostly inertial";
+  }
+
+  void View(const std::vector<Track>& tracks, FrameResult& result) const {
+    const Transform X_CO = (window_.Newest().X_OI * window_.X_IC()).Inverse();
+    for (const Track& t : tracks) {
+      FeatureView view;
+      view.u = static_cast<float>(t.pixel.x());
+      view.v = static_cast<float>(t.pixel.y());
+      view.age = t.age;
+      if (const std::optional<Vec3> p_O = window_.Landmark(t.id)) {
+        view.depth = static_cast<float>(std::max(0.0, (X_CO * *p_O).z()));
+      }
+      result.features.push_back(view);
+    }
+  }
+
+  static constexpr std::uint64_t kCovariancePeriod = 4;  // frames; a millisecond each
+
+  OdometryConfig config_;
+  features::StereoRig rig_;
+  ImuCalibration imu_;
+  Transform X_OB_start_;
+  features::StereoTracker tracker_;
+  SlidingWindow window_;
+  std::vector<TimedImu> samples_;
+  std::optional<Time> last_stamp_, still_since_;
+  bool running_ = false;
+  Time last_keyframe_, last_seeing_;
+  Transform X_OC_reference_;  // left camera of the tracker's reference pair
+  Mat15 window_covariance_ = Mat15::Zero();
+  int failed_solves_ = 0;
+  std::uint32_t reset_counter_ = 0;
+  OdometryTiming timing_;
+};
+
+StereoInertialOdometry::StereoInertialOdometry(const Calibration& calibration, const OdometryConfig& config,
+                                               const Transform& X_OB_start)
+    : impl_(std::make_unique<Impl>(calibration, config, X_OB_start)) {}
+StereoInertialOdometry::~StereoInertialOdometry() = default;
+StereoInertialOdometry::StereoInertialOdometry(StereoInertialOdometry&&) noexcept = default;
+StereoInertialOdometry& StereoInertialOdometry::operator=(StereoInertialOdometry&&) noexcept = default;
+
+FrameResult StereoInertialOdometry::Process(const FrameInput& input) { return impl_->Process(input); }
+CalibrationEstimate StereoInertialOdometry::RefinedCalibration() const { return impl_->Rig(); }
+OdometryTiming StereoInertialOdometry::Timing() const { return impl_->Timing(); }
+
+}  // namespace alula::stack::estimation

@@ -1,0 +1,66 @@
+#include "stack/estimation/odometry_config.h"
+
+namespace alula::stack::estimation {
+
+void Describe(base::Description& d, StaticInitConfig& c) {
+  d.Field("duration", c.duration, {.unit = "s", .meaning = "of standstill that is averaged", .min = 0.2, .max = 30});
+  d.Field("max_median_flow", c.max_median_flow,
+          {.unit = "px", .meaning = "against the first image of the standstill", .min = 0.05, .max = 5});
+  d.Field("min_features", c.min_features, {.meaning = "fewer corners say nothing about motion", .min = 4});
+}
+
+void Describe(base::Description& d, WindowConfig& c) {
+  d.Field("frames", c.frames, {.meaning = "states in the window", .min = 4, .max = 40});
+  d.Field("recent_frames", c.recent_frames,
+          {.meaning = "newest frames kept whether keyframes or not", .min = 1, .max = 20});
+  d.Field("iterations", c.iterations, {.meaning = "of Levenberg-Marquardt a frame", .min = 1, .max = 50});
+  d.Field("pixel_sigma", c.pixel_sigma, {.unit = "px", .meaning = "of a corner's position", .min = 0.05, .max = 10});
+  d.Field("huber", c.huber, {.meaning = "width of the kernel in sigmas", .min = 0.1, .max = 100});
+  d.Field("outlier_gate", c.outlier_gate,
+          {.unit = "px", .meaning = "final error beyond which a sight is dropped", .min = 0.5, .max = 100});
+  d.Field("min_depth", c.min_depth, {.unit = "m", .meaning = "nearer landmarks are not made", .min = 0.01});
+  d.Field("max_depth", c.max_depth, {.unit = "m", .meaning = "a landmark begins no farther", .min = 1});
+  d.Field("consumed_share", c.consumed_share,
+          {.meaning = "of followed landmarks of a leaving keyframe that go into the prior", .min = 0, .max = 1});
+  d.Field("imu_noise_scale", c.imu_noise_scale, {.meaning = "on the calibrated densities", .min = 0.1, .max = 100});
+  d.Field("tilt_sigma", c.tilt_sigma, {.unit = "rad", .meaning = "of the first attitude", .min = 1e-4, .max = 1});
+  d.Field("camera_rotation_sigma", c.camera_rotation_sigma,
+          {.unit = "rad", .meaning = "camera against IMU", .min = 1e-6, .max = 0.5});
+  d.Field("eye_rotation_sigma", c.eye_rotation_sigma,
+          {.unit = "rad", .meaning = "one eye against the other", .min = 1e-6, .max = 0.5});
+  d.Field("time_offset_sigma", c.time_offset_sigma,
+          {.unit = "s", .meaning = "camera clock against IMU clock", .min = 1e-6, .max = 0.5});
+  d.Field("refine_calibration", c.refine_calibration, {.meaning = "estimate those three while flying"});
+  d.Check("recent_frames", [&c] {
+    return c.recent_frames + 2 <= c.frames ? "" : "recent_frames must leave two of the window's frames to keyframes";
+  });
+}
+
+void Describe(base::Description& d, KeyframeConfig& c) {
+  d.Field("min_parallax", c.min_parallax,
+          {.unit = "px", .meaning = "median, rotation removed, that makes a keyframe", .min = 0.5});
+  d.Field("max_flow", c.max_flow, {.unit = "px", .meaning = "median that makes a keyframe", .min = 1});
+  d.Field("min_track_share", c.min_track_share,
+          {.meaning = "of the reference's corners; fewer make a keyframe", .min = 0, .max = 1});
+  d.Field("min_tracks", c.min_tracks, {.meaning = "fewer make a keyframe", .min = 0});
+  d.Field("max_age", c.max_age, {.unit = "s", .meaning = "of the last keyframe", .min = 0.1});
+}
+
+void Describe(base::Description& d, FailureConfig& c) {
+  d.Field("max_blind_time", c.max_blind_time, {.unit = "s", .meaning = "with too few inliers", .min = 0.1});
+  d.Field("min_inliers", c.min_inliers, {.meaning = "fewer count as blind", .min = 0});
+  d.Field("max_gyro_bias", c.max_gyro_bias, {.unit = "rad/s", .meaning = "beyond: failed", .min = 1e-3});
+  d.Field("max_accel_bias", c.max_accel_bias, {.unit = "m/s^2", .meaning = "beyond: failed", .min = 1e-3});
+  d.Field("max_speed", c.max_speed, {.unit = "m/s", .meaning = "beyond: failed", .min = 0.1});
+  d.Field("max_jump", c.max_jump, {.unit = "m", .meaning = "of the solution against the IMU in a frame", .min = 0.01});
+}
+
+void Describe(base::Description& d, OdometryConfig& c) {
+  d.Field("tracker", c.tracker, {.meaning = "how corners are found and followed"});
+  d.Field("static_init", c.static_init, {.meaning = "how standstill is judged"});
+  d.Field("window", c.window, {.meaning = "the sliding window and its noise model"});
+  d.Field("keyframe", c.keyframe, {.meaning = "when a keyframe is due"});
+  d.Field("failure", c.failure, {.meaning = "signs that the estimate has failed"});
+}
+
+}  // namespace alula::stack::estimation

@@ -1,0 +1,194 @@
+#include <ceres/loss_function.h>
+#include <ceres/problem.h>
+#include <ceres/solver.h>
+
+#include <algorithm>
+#include <array>
+
+#include "stack/estimation/internal/pose_manifold.h"
+#include "stack/estimation/internal/prior_factor.h"
+#include "stack/estimation/internal/sliding_window.h"
+
+namespace alula::stack::estimation {
+namespace {
+
+/// Biases that far from where an interval was linearised make it worth integrating again.
+constexpr double kGyroShift = 0.01, kAccelShift = 0.2;  // rad/s, m/s²
+
+}  // namespace
+
+bool SlidingWindow::Solve() {
+  RefreshModels();
+  DropUnusable();
+  const std::vector<double> before(arena_.get(), arena_.get() + arena_size_);
+
+  ceres::Problem::Options ownership;
+  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  ownership.disable_all_safety_checks = true;
+  ceres::Problem problem(ownership);
+  PoseManifold manifold;
+  ceres::HuberLoss huber(config_.huber);
+  PriorFactor prior(prior_);
+  auto* ordering = new ceres::ParameterBlockOrdering;
+
+  problem.AddParameterBlock(rig_parameters(), kRigSize);
+  if (!config_.refine_calibration) problem.SetParameterBlockConstant(rig_parameters());
+  ordering->AddElementToGroup(rig_parameters(), 1);
+  for (const auto& frame : frames_) {
+    problem.AddParameterBlock(pose(frame->slot), kPoseSize, &manifold);
+    problem.AddParameterBlock(speed_bias(frame->slot), kSpeedBiasSize);
+    ordering->AddElementToGroup(pose(frame->slot), 1);
+    ordering->AddElementToGroup(speed_bias(frame->slot), 1);
+  }
+  for (std::size_t i = 1; i < frames_.size(); ++i) {
+    Frame& frame = *frames_[i];
+    const ImuState state = ReadState(*frames_[i - 1]);
+    if ((state.gyro_bias - frame.integral->gyro_bias()).norm() > kGyroShift ||
+        (state.accel_bias - frame.integral->accel_bias()).norm() > kAccelShift) {
+      frame.integral->Relinearise(state.gyro_bias, state.accel_bias);
+      frame.factor.reset();
+    }
+    if (!frame.factor) frame.factor = std::make_unique<ImuFactor>(*frame.integral);
+    const std::size_t a = frames_[i - 1]->slot, b = frame.slot;
+    problem.AddResidualBlock(frame.factor.get(), nullptr, pose(a), speed_bias(a), pose(b), speed_bias(b));
+  }
+  std::vector<double*> prior_blocks;
+  for (const LinearBlock& block : prior_.blocks) prior_blocks.push_back(block.x);
+  problem.AddResidualBlock(&prior, nullptr, prior_blocks);
+  for (const auto& [track, landmark] : landmarks_) {
+    if (!UsesPoint(landmark)) continue;
+    double* p = point(landmark.slot);
+    problem.AddParameterBlock(p, kLandmarkSize);
+    ordering->AddElementToGroup(p, 0);
+    for (const Sight& sight : landmark.sights) {
+      for (ReprojectionFactor* factor : {sight.left.get(), sight.right.get()}) {
+        if (factor != nullptr) problem.AddResidualBlock(factor, &huber, pose(sight.slot), p, rig_parameters());
+      }
+    }
+  }
+
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::DENSE_SCHUR;
+  options.linear_solver_ordering.reset(ordering);
+  options.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
+  options.initial_trust_region_radius = 1e6;
+  options.max_num_iterations = config_.iterations;
+  options.function_tolerance = 1e-4;
+  options.num_threads = 1;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &problem, &summary);
+  const bool finite = std::all_of(arena_.get(), arena_.get() + arena_size_, [](double x) { return std::isfinite(x); });
+  if (!summary.IsSolutionUsable() || !finite) {
+    std::copy(before.begin(), before.end(), arena_.get());
+    return false;
+  }
+  return true;
+}
+
+void SlidingWindow::MarginaliseOldest() {
+  RefreshModels();
+  DropUnusable();
+  const std::size_t oldest = frames_[0]->slot;
+  const std::size_t settled = frames_.size() - static_cast<std::size_t>(config_.recent_frames);
+  const auto is_settled = [&](const Sight& s) {
+    for (std::size_t i = 0; i < settled; ++i) {
+      if (frames_[i]->slot == s.slot) return true;
+    }
+    return false;
+  };
+
+  // Which landmarks go into the prior.
+  std::vector<std::map<std::uint64_t, MapPoint>::iterator> consumed;
+  for (auto it = landmarks_.begin(); it != landmarks_.end(); ++it) {
+    const auto& sights = it->second.sights;
+    if (std::none_of(sights.begin(), sights.end(), [oldest](const Sight& s) { return s.slot == oldest; })) continue;
+    const bool followed = !std::all_of(sights.begin(), sights.end(), is_settled);
+    if (followed) {
+      const auto before = static_cast<std::uint64_t>(static_cast<double>(consumption_) * config_.consumed_share);
+      const auto after = static_cast<std::uint64_t>(static_cast<double>(++consumption_) * config_.consumed_share);
+      if (before == after) continue;
+    }
+    if (std::count_if(sights.begin(), sights.end(), is_settled) >= 2) consumed.push_back(it);
+  }
+
+  // Columns: what leaves first; then the rig and all that the prior or the leaving factors touch.
+  const auto linearisation_point = [this](const double* x) -> const double* {
+    for (const LinearBlock& block : prior_.blocks) {
+      if (block.x == x) return block.x0.data();
+    }
+    return nullptr;
+  };
+  NormalEquations system;
+  const auto add = [&](double* x, BlockKind kind) {
+    const int known = system.Find(x);
+    return known >= 0 ? known : system.AddBlock(x, kind, linearisation_point(x));
+  };
+  const int pose_0 = add(pose(oldest), BlockKind::kPose), speed_0 = add(speed_bias(oldest), BlockKind::kSpeedBias);
+  const int rig = add(rig_parameters(), BlockKind::kRig);
+  const Frame& next = *frames_[1];
+  const int pose_1 = add(pose(next.slot), BlockKind::kPose),
+            speed_1 = add(speed_bias(next.slot), BlockKind::kSpeedBias);
+  for (const LinearBlock& block : prior_.blocks) add(block.x, block.kind);
+  for (const auto& it : consumed) {
+    for (const Sight& s : it->second.sights) {
+      if (is_settled(s)) add(pose(s.slot), BlockKind::kPose);
+    }
+  }
+  system.Allocate();
+  system.Add(prior_);
+  if (!next.factor) frames_[1]->factor = std::make_unique<ImuFactor>(*next.integral);
+  system.Add(*next.factor, std::array{pose_0, speed_0, pose_1, speed_1});
+  for (const auto& it : consumed) {
+    std::vector<NormalEquations::Sight> sights;
+    for (const Sight& s : it->second.sights) {
+      if (!is_settled(s)) continue;
+      const int block = system.Find(pose(s.slot));
+      sights.push_back({s.left.get(), block});
+      if (s.right) sights.push_back({s.right.get(), block});
+    }
+    system.AddLandmark(point(it->second.slot), sights, rig, config_.huber);
+  }
+  prior_ = Marginalise(system, kPoseTangent + kSpeedBiasSize);
+
+  for (const auto& it : consumed) {
+    std::erase_if(it->second.sights, is_settled);
+    if (it->second.sights.empty()) ErasePoint(it);
+  }
+  EraseSights(oldest);
+  frames_[1]->integral.reset();
+  frames_[1]->factor.reset();
+  free_slots_.push_back(oldest);
+  frames_.erase(frames_.begin());
+}
+
+Mat15 SlidingWindow::NewestCovariance() const {
+  NormalEquations system;
+  const int rig = system.AddBlock(rig_parameters(), BlockKind::kRig);
+  std::vector<int> poses, speeds;
+  for (const auto& frame : frames_) {
+    poses.push_back(system.AddBlock(pose(frame->slot), BlockKind::kPose));
+    speeds.push_back(system.AddBlock(speed_bias(frame->slot), BlockKind::kSpeedBias));
+  }
+  system.Allocate();
+  system.Add(prior_);
+  for (std::size_t i = 1; i < frames_.size(); ++i) {
+    if (frames_[i]->factor)
+      system.Add(*frames_[i]->factor, std::array{poses[i - 1], speeds[i - 1], poses[i], speeds[i]});
+  }
+  for (const auto& [track, landmark] : landmarks_) {
+    if (!UsesPoint(landmark)) continue;
+    std::vector<NormalEquations::Sight> sights;
+    for (const Sight& s : landmark.sights) {
+      const int block = system.Find(pose(s.slot));
+      sights.push_back({s.left.get(), block});
+      if (s.right) sights.push_back({s.right.get(), block});
+    }
+    system.AddLandmark(point(landmark.slot), sights, rig, config_.huber);
+  }
+  return MarginalCovariance(system.H(), system.Column(poses.back()), 15);
+}
+
+}  // namespace alula::stack::estimation
