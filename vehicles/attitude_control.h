@@ -17,6 +17,9 @@ struct AttitudeControlConfig {
   base::Vec3 maximum_integral{20, 20, 6};       // rad/s²
   double gyro_cutoff = 90.0;                    // Hz, low-pass of the gyro in the rate loop
   double derivative_cutoff = 40.0;              // Hz, low-pass of its derivative
+  /// First-order low-pass of the yaw torque, Hz: the rotors' inertia already answers fast (a zero at 2 k_q ω / J_r,
+  /// 0.9 Hz at hover), and this pole takes that zero's place (PX4's MC_YAW_TQ_CUTOFF).
+  double yaw_torque_cutoff = 1.2;
 };
 void Describe(base::Description& d, AttitudeControlConfig& c);
 
@@ -41,7 +44,10 @@ class RateControl {
                   double dt);
 
   const base::Vec3& rate() const { return filtered_; }  // filtered, rad/s
-  void Reset() { integral_.setZero(); }
+  void Reset() {
+    integral_.setZero();
+    yaw_ = 0;
+  }
 
  private:
   AttitudeControlConfig config_;
@@ -49,6 +55,8 @@ class RateControl {
   LowPass derivative_filter_;
   base::Vec3 filtered_ = base::Vec3::Zero();
   base::Vec3 integral_ = base::Vec3::Zero();
+  double yaw_ = 0.0;  // rad/s², after the yaw torque's low-pass
+  bool started_ = false;
 };
 
 }  // namespace alula::vehicles

@@ -2,14 +2,15 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <deque>
 #include <optional>
-#include <vector>
 
 #include "base/describe.h"
 #include "base/frames.h"
 #include "base/time.h"
 #include "stack/interface/measurement.h"
 #include "stack/interface/navigation_stack.h"
+#include "vehicles/inertial_error_model.h"
 
 namespace alula::vehicles {
 
@@ -29,7 +30,7 @@ struct ErrorStateFilterConfig {
   double vision_position_floor = 0.01;  // m, least 1σ believed
   double vision_velocity_floor = 0.03;  // m/s
   double vision_yaw_floor = 0.005;      // rad
-  double gate_probability = 0.9999;     // chi-square gate of an innovation
+  double gate = 4.0;                    // chi-square gate of an innovation, as the one-sided quantile of a normal, σ
   /// Estimates rejected for this long re-initialise position, velocity and yaw: the filter must be what is wrong.
   base::Duration rejection_timeout = base::Milliseconds(800);
   /// The filter itself stands at most this far behind the present while vision is silent; older estimates are dropped.
@@ -39,51 +40,6 @@ struct ErrorStateFilterConfig {
   double standstill_accelerometer = 0.6;                // m/s²
 };
 void Describe(base::Description& d, ErrorStateFilterConfig& c);
-
-/// Layout of the error state: right perturbation R = R̂ Exp(δθ), everything else additive.
-struct ErrorLayout {
-  static constexpr int kPosition = 0;           // δp_OB, m
-  static constexpr int kVelocity = 3;           // δv_OB, m/s
-  static constexpr int kRotation = 6;           // δθ, rad, body axes
-  static constexpr int kAccelerometerBias = 9;  // δb_a, m/s²
-  static constexpr int kGyroBias = 12;          // δb_g, rad/s
-  static constexpr int kBarometer = 15;         // δb_h, m: barometric height minus odometry height
-  static constexpr int kSize = 16;
-};
-using ErrorVector = Eigen::Matrix<double, ErrorLayout::kSize, 1>;
-using ErrorMatrix = Eigen::Matrix<double, ErrorLayout::kSize, ErrorLayout::kSize>;
-
-/// The nominal state.
-struct NavigationState {
-  base::Vec3 p_OB = base::Vec3::Zero();
-  base::Vec3 v_OB = base::Vec3::Zero();
-  base::Quat q_OB = base::Quat::Identity();
-  base::Vec3 accelerometer_bias = base::Vec3::Zero();
-  base::Vec3 gyro_bias = base::Vec3::Zero();
-  double barometer_offset = 0.0;
-};
-
-/// x ⊞ δ.
-NavigationState Plus(const NavigationState& x, const ErrorVector& delta);
-/// δ with x ⊞ δ = y.
-ErrorVector Minus(const NavigationState& y, const NavigationState& x);
-
-/// One IMU sample held for dt (s), attitude at mid-interval for the specific force:
-///   a = R Exp(½ ω dt) (f − b_a) + g,  p += v dt + ½ a dt²,  v += a dt,  R ← R Exp(ω dt),  ω = w − b_g.
-void Propagate(NavigationState& x, const stack::ImuSample& imu, double dt);
-
-/// Motion over a stretch of IMU samples from its first attitude R_0, gravity excluded.
-struct InertialStretch {
-  double duration = 0.0;                         // s
-  base::Vec3 velocity = base::Vec3::Zero();      // R_0ᵀ ∫ R f
-  base::Vec3 displacement = base::Vec3::Zero();  // R_0ᵀ ∬ R f
-  base::Quat rotation = base::Quat::Identity();  // R_0ᵀ R_1
-  void Add(const NavigationState& x, const stack::ImuSample& imu, double dt);
-};
-
-/// Transition of the error state over a stretch (Solà 2017, eqs. 269–270, extended from one sample to a stretch of a
-/// few milliseconds; bias columns to second order in its duration).
-ErrorMatrix Transition(const base::Quat& q_OB_start, const InertialStretch& stretch);
 
 /// Error-state Kalman filter of a multicopter: 15 inertial states and the barometer's offset. It stands at the stamp of
 /// the last estimate that it fused; from there its nominal state is carried to the present through the buffered IMU
@@ -126,18 +82,17 @@ class ErrorStateFilter {
     stack::ImuSample imu;
     std::optional<double> barometric_height;  // at `end`
   };
-  class Standstill {
-   public:
-    void Add(const stack::ImuSample& imu);
-    void Clear() { *this = Standstill(); }
+  /// Running moments of the IMU while the vehicle may stand still.
+  struct Standstill {
     int count = 0;
     base::Vec3 gyro_sum = base::Vec3::Zero(), force_sum = base::Vec3::Zero();
     base::Vec3 gyro_squares = base::Vec3::Zero(), force_squares = base::Vec3::Zero();
   };
 
   void WatchStandstill(base::Time now, const stack::ImuSample& imu);
-  void Initialise(base::Time now, const stack::Estimate& estimate);
-  void Reinitialise(base::Time now, const stack::Estimate& estimate);
+  void Initialise(const stack::Estimate& estimate);
+  void Reinitialise(const stack::Estimate& estimate);
+  void Forget(int block, int size);
   void AdvanceTo(base::Time target);
   void PropagateCovariance(const base::Quat& q_start, const InertialStretch& stretch);
   void FuseHeight(double barometric_height);
@@ -153,7 +108,8 @@ class ErrorStateFilter {
   bool stands_still_ = false;
   Standstill standstill_;
   base::Time standstill_since_;
-  base::Vec3 still_gyro_ = base::Vec3::Zero(), still_force_ = base::Vec3::Zero();
+  base::Vec3 still_gyro_ = base::Vec3::Zero(), still_force_ = base::Vec3::Zero();  // means of the last stretch
+  std::optional<double> still_height_;
 
   NavigationState delayed_;
   base::Time delayed_time_;
@@ -162,8 +118,7 @@ class ErrorStateFilter {
   base::Time present_time_;
   bool has_tick_ = false;
 
-  std::vector<Sample> ring_;  // samples that end after delayed_time_: ring_[first_], …
-  std::size_t first_ = 0, size_ = 0;
+  std::deque<Sample> samples_;  // those that end after delayed_time_
 
   std::uint32_t reset_counter_ = 0;
   std::optional<base::Time> last_fused_;

@@ -3,25 +3,15 @@
 #include <memory>
 
 #include "base/describe.h"
-#include "base/time.h"
 #include "vehicles/attitude_control.h"
 #include "vehicles/error_state_filter.h"
+#include "vehicles/flight_modes.h"
+#include "vehicles/land_detector.h"
 #include "vehicles/position_control.h"
 #include "vehicles/quadrotor.h"
 #include "vehicles/vehicle.h"
 
 namespace alula::vehicles {
-
-/// When the autopilot takes matters into its own hands.
-struct FailsafeConfig {
-  base::Duration estimate_timeout = base::Milliseconds(500);  // without an estimate: no longer trust the position
-  base::Duration hold_time = base::Seconds(3.0);              // silence is held this long, then the vehicle lands
-  base::Duration ready_timeout = base::Seconds(10.0);         // armed on the ground without a take-off: disarm
-  double descent_speed = 0.7;                                 // m/s
-  double touchdown_speed = 0.3;                               // m/s, within touchdown_height of the take-off level
-  double touchdown_height = 1.0;                              // m
-};
-void Describe(base::Description& d, FailsafeConfig& c);
 
 struct MulticopterAutopilotConfig {
   /// What the autopilot was set up with; the vehicle that flies may be 5 % lighter or heavier.
@@ -31,6 +21,7 @@ struct MulticopterAutopilotConfig {
   PositionControlConfig position;
   AttitudeControlConfig attitude;
   FailsafeConfig failsafe;
+  LandDetectorConfig landing;
 };
 void Describe(base::Description& d, MulticopterAutopilotConfig& c);
 

@@ -25,7 +25,7 @@ struct FrameConfig {
   double rotor_above = 0.030;                    // m, propeller discs above the arms
   double leg_length = 0.062;                     // m, below the arms
   double leg_radius = 0.006;                     // m
-  double body_mass = 0.260;                      // kg
+  double body_mass = 0.226;                      // kg
   double battery_mass = 0.230;                   // kg
   double arm_mass = 0.022;                       // kg, each
   double motor_mass = 0.0315;                    // kg, each

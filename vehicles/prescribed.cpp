@@ -1,0 +1,113 @@
+#include "vehicles/prescribed.h"
+
+#include <cmath>
+#include <utility>
+
+#include "vehicles/flatness.h"
+#include "vehicles/prescribed_motion.h"
+
+namespace alula::vehicles {
+
+namespace {
+
+using base::Vec3;
+
+/// Roll and pitch as sines of the running time; body rates from the rates of yaw, pitch and roll (z-y'-x'').
+FlatAttitude AttitudeFromSines(const SineAttitude& c, const MotionSample& s) {
+  const double wr = 2 * M_PI * c.roll_frequency, wp = 2 * M_PI * c.pitch_frequency;
+  const double roll = c.roll_amplitude * std::sin(wr * s.clock.tau);
+  const double roll_rate = c.roll_amplitude * wr * std::cos(wr * s.clock.tau) * s.clock.rate;
+  const double pitch = c.pitch_amplitude * std::sin(wp * s.clock.tau);
+  const double pitch_rate = c.pitch_amplitude * wp * std::cos(wp * s.clock.tau) * s.clock.rate;
+  return {base::FromYawPitchRoll(s.yaw, pitch, roll),
+          {roll_rate - s.yaw_rate * std::sin(pitch),
+           pitch_rate * std::cos(roll) + s.yaw_rate * std::sin(roll) * std::cos(pitch),
+           -pitch_rate * std::sin(roll) + s.yaw_rate * std::cos(roll) * std::cos(pitch)}};
+}
+
+class PrescribedVehicle final : public VehicleModel {
+ public:
+  PrescribedVehicle(const PrescribedConfig& config, const std::string& name)
+      : config_(config), body_(LayOutQuadrotor(config.body).body), motion_(config.motion, name) {
+    body_.prescribed = true;
+  }
+
+  const VehicleBody& body() const override { return body_; }
+  Wrench Step(const BodyState&, const ActuatorCommand&, const Vec3&, base::Duration) override { return {}; }
+
+  BodyState Prescribed(base::Time t) const override {
+    const MotionSample s = motion_.At(t.Seconds() - config_.standstill);
+    const auto* sines = std::get_if<SineAttitude>(&config_.attitude);
+    const FlatAttitude attitude =
+        sines ? AttitudeFromSines(*sines, s) : AttitudeFromThrust(s.a, s.jerk, s.yaw, s.yaw_rate);
+    return {.X_WB = {attitude.q_WB, s.p}, .v_WB = s.v, .w_B = attitude.w_B};
+  }
+
+  std::optional<base::Time> PrescribedEnd() const override {
+    return base::Time{} + base::Seconds(config_.standstill + motion_.duration());
+  }
+
+  stack::BatterySample Battery() const override {
+    return {config_.body.battery.cells * CellVoltage(config_.body.battery.initial_charge), 0.0};
+  }
+  std::vector<TelemetryValue> Telemetry() const override { return {}; }
+
+ private:
+  PrescribedConfig config_;
+  VehicleBody body_;
+  PrescribedMotion motion_;
+};
+
+void Angle(base::Description& d, std::string_view name, double& value, std::string_view meaning) {
+  d.Field(name, value, {.unit = "rad", .meaning = meaning});
+}
+void Frequency(base::Description& d, std::string_view name, double& value, std::string_view meaning) {
+  d.Field(name, value, {.unit = "Hz", .meaning = meaning, .min = 0, .max = 100});
+}
+
+}  // namespace
+
+void Describe(base::Description& d, PathMotion& c) {
+  d.Field("waypoints", c.waypoints, {.unit = "m", .meaning = "corners of the polygon that is followed, world"});
+  d.Field("speed", c.speed, {.unit = "m/s", .meaning = "along straight stretches", .min = 0.01, .max = 50});
+  d.Field("knot_interval", c.knot_interval,
+          {.unit = "s", .meaning = "time between control points; longer rounds corners more", .min = 0.05, .max = 10});
+}
+
+void Describe(base::Description& d, SineTerm& c) {
+  d.Field("amplitude", c.amplitude, {.unit = "m", .meaning = "along world x, y and z"});
+  Frequency(d, "frequency", c.frequency, "of this term");
+  d.Field("phase", c.phase, {.unit = "rad", .meaning = "at the start, along x, y and z"});
+}
+
+void Describe(base::Description& d, SineMotion& c) {
+  d.Field("start", c.start, {.unit = "m", .meaning = "where it begins, world"});
+  d.Field("terms", c.terms, {.meaning = "sines that are summed"});
+  Angle(d, "yaw", c.yaw, "heading at the start");
+  Angle(d, "yaw_amplitude", c.yaw_amplitude, "of the heading's sine");
+  Frequency(d, "yaw_frequency", c.yaw_frequency, "of the heading's sine");
+  d.Field("ramp", c.ramp, {.unit = "s", .meaning = "from standstill to full rate, and back", .min = 0.1, .max = 100});
+  d.Field("flight_time", c.flight_time, {.unit = "s", .meaning = "with both ramps", .min = 0.2, .max = 1e5});
+}
+
+void Describe(base::Description&, ThrustAttitude&) {}
+
+void Describe(base::Description& d, SineAttitude& c) {
+  Angle(d, "roll_amplitude", c.roll_amplitude, "of the roll's sine");
+  Frequency(d, "roll_frequency", c.roll_frequency, "of the roll's sine");
+  Angle(d, "pitch_amplitude", c.pitch_amplitude, "of the pitch's sine");
+  Frequency(d, "pitch_frequency", c.pitch_frequency, "of the pitch's sine");
+}
+
+void Describe(base::Description& d, PrescribedConfig& c) {
+  d.Field("standstill", c.standstill, {.unit = "s", .meaning = "at rest before the motion begins", .min = 0});
+  d.OneOf("motion", c.motion, {.meaning = "where it goes", .choices = {"path", "sines"}});
+  d.OneOf("attitude", c.attitude, {.meaning = "how it tilts", .choices = {"thrust", "sines"}});
+  d.Field("body", c.body, {.meaning = "the quadrotor that it looks like"});
+}
+
+std::unique_ptr<VehicleModel> MakePrescribed(const PrescribedConfig& config, std::string name) {
+  return std::make_unique<PrescribedVehicle>(config, name);
+}
+
+}  // namespace alula::vehicles
