@@ -23,9 +23,13 @@ void WriteOctoMap(const ClearanceField& field, std::ostream& out) {
       }
     }
   }
-  tree.updateInnerOccupancy();
+  if (tree.getRoot() != nullptr) tree.updateInnerOccupancy();
   tree.prune();
-  if (!tree.writeBinaryConst(out)) throw base::FaultError("map_write", "the octree could not be written");
+  // The header of octomap's own writeBinary, which would also talk on stderr.
+  out << "# Octomap OcTree binary file\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
+      << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  if (tree.getRoot() != nullptr) tree.writeBinaryNode(out, tree.getRoot());
+  if (!out) throw base::FaultError("map_write", "the octree could not be written");
 }
 
 }  // namespace alula::stack::mapping::internal

@@ -16,7 +16,7 @@ namespace alula::stack::mapping {
 struct OccupancyMapConfig {
   double cell = 0.1;       // m; finer is not supported by the sensor (FINDINGS)
   double max_range = 5.0;  // m along the optical axis; nothing farther is entered, free space is carved up to here
-  double disparity_sigma = 0.3;  // px of the depth map; sets σ_z = z² σ_d / (f b)
+  double disparity_sigma = 0.2;  // px of the depth map; sets σ_z = z² σ_d / (f b)
   double free_sigmas = 3.0;      // rays are free up to z − this·σ_z …
   double free_share_min = 0.5;   // … but at least to this share of z
   double hit = 1.2;              // log-odds of a hit in its cell where σ_z is below half a cell; falls as cell/(2σ_z)

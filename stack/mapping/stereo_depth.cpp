@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "stack/mapping/internal/rectification.h"
+#include "stack/mapping/internal/refine_disparity.h"
 
 namespace alula::stack::mapping {
 
@@ -126,9 +127,12 @@ void Describe(base::Description& d, StereoDepthConfig& c) {
           {.meaning = "mean horizontal gradient needed in the window, grey levels", .min = 0, .max = 255});
   d.Field("texture_window", c.texture_window, {.meaning = "window of that mean, px, odd", .min = 1, .max = 31});
   d.Field("edge_jump", c.edge_jump, {.meaning = "disparity jump that makes a depth edge, px", .min = 0.1});
+  d.Field("refinements", c.refinements, {.meaning = "sub-pixel steps after matching", .min = 0, .max = 10});
+  d.Field("refine_window", c.refine_window, {.meaning = "window of those steps, px, odd", .min = 3, .max = 31});
   d.Field("far_disparity", c.far_disparity,
           {.meaning = "valid disparities below this are farther than can be measured, px", .min = 0, .max = 10});
   d.Check("block", [&c] { return c.block % 2 == 1 ? "" : "must be odd; 5 is typical"; });
+  d.Check("refine_window", [&c] { return c.refine_window % 2 == 1 ? "" : "must be odd; 7 is typical"; });
   d.Check("texture_window", [&c] { return c.texture_window % 2 == 1 ? "" : "must be odd; 7 is typical"; });
 }
 
@@ -158,6 +162,7 @@ DepthMap StereoDepth::Compute(const Image& left_image, const Image& right_image)
   RejectHidden(disparity, c.left_right_tolerance);
   RejectPlain(left, c, disparity);
   RejectFlying(c.edge_jump, disparity);
+  for (int n = 0; n < c.refinements; ++n) internal::RefineDisparity(left, right, c.refine_window, disparity);
 
   DepthMap depth;
   depth.width = left.cols;

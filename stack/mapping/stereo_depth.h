@@ -21,6 +21,8 @@ struct StereoDepthConfig {
   double min_texture = 2.0;           // mean |horizontal gradient| in the window, grey levels; below: unknown (sky)
   int texture_window = 7;             // px, odd
   double edge_jump = 1.5;             // px of disparity; a larger jump within two pixels is a depth edge
+  int refinements = 1;                // sub-pixel steps: without, whole surfaces are pulled to full pixels by 0.25 px
+  int refine_window = 7;              // px, odd
   double far_disparity = 0.5;         // px; valid disparities below this are "free to the limit"
 };
 void Describe(base::Description& d, StereoDepthConfig& c);

@@ -31,7 +31,7 @@ struct GateFinderConfig {
   double search_yaw = 0.44;      // rad (25°) to each side
   double bar_width = 0.12;       // m, of the thinnest bars
   double bar_depth = 0.16;       // m along the passage, typical
-  double disparity_sigma = 0.3;  // px of the depth map
+  double disparity_sigma = 0.2;  // px of the depth map
   double disparity_bias = 0.1;   // px, common to a whole view (calibration of the eyes)
   double max_range = 6.0;        // m; farther pixels do not tell a bar from a wall
   double min_bar_support = 0.4;  // mean evidence in (−1 … 1) that a bar needs to count as seen
