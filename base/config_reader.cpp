@@ -113,6 +113,8 @@ class Reader {
 
   // --- values ---
 
+  static constexpr const char* kNumberOrDistribution = "a number, {uniform: …}, {normal: …} or {choice: …}";
+
   static const std::string& ScalarText(const Node& node, const std::string& path, const char* wanted) {
     if (node.IsNull()) Fail(node, path, std::string("has no value; ") + wanted + " is wanted");
     if (!node.IsScalar()) Fail(node, path, "is " + WhatIs(node) + "; " + wanted + " is wanted");
@@ -137,11 +139,11 @@ class Reader {
   double NumberOrDraw(const Node& node, const std::string& path, const FieldInfo& info, std::string_view unit,
                       const Parse& parse, const Round& round) {
     const auto read = [&](const Node& n) {
-      const std::string& text = ScalarText(n, path, "a number");
+      const std::string& text = ScalarText(n, path, n.IsMap() ? kNumberOrDistribution : "a number");
       return Located(n, path, [&] { return parse(text); });
     };
     const auto checked = [&](const Node& n, double value) {
-      Located(n, path, [&] { quantity::CheckRange(value, info, unit); });
+      Located(n, path, [&] { quantity::CheckRange(value, info, unit, n.text); });
       return value;
     };
     if (!node.IsDistribution()) return checked(node, read(node));
@@ -204,7 +206,7 @@ class Reader {
     if (!node.IsDistribution()) {  // as an integer, not through a double: seeds have 64 bits
       const std::string& text = ScalarText(node, path, "a whole number");
       const auto value = Located(node, path, [&] { return parse(text); });
-      Located(node, path, [&] { quantity::CheckRange(static_cast<double>(value), limits, info.unit); });
+      Located(node, path, [&] { quantity::CheckRange(static_cast<double>(value), limits, info.unit, text); });
       return static_cast<Integer>(value);
     }
     const bool uniform = node.map[0].key == "uniform";
@@ -250,7 +252,7 @@ class Reader {
   void ReadScalar(Rate* value, const FieldInfo& info, const Node& node, const std::string& path) {
     const std::string& text = ScalarText(node, path, "a frequency");
     const Rate rate = Located(node, path, [&] { return quantity::ParseRate(text); });
-    Located(node, path, [&] { quantity::CheckRange(rate.Hz(), info, "Hz"); });
+    Located(node, path, [&] { quantity::CheckRange(rate.Hz(), info, "Hz", text); });
     *value = rate;
   }
   void ReadScalar(Vec3* value, const FieldInfo& info, const Node& node, const std::string& path) {

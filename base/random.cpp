@@ -6,16 +6,8 @@
 
 namespace alula::base {
 
-RandomStream::RandomStream(std::uint64_t seed, std::string_view name) {
-  const std::uint64_t h = HashName(name);
-  key_ = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
-  counter_ = {0, 0, static_cast<std::uint32_t>(h), static_cast<std::uint32_t>(h >> 32)};
-}
-
-void RandomStream::Refill() {
+std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> c, std::array<std::uint32_t, 2> k) {
   constexpr std::uint32_t kM0 = 0xD2511F53, kM1 = 0xCD9E8D57, kW0 = 0x9E3779B9, kW1 = 0xBB67AE85;
-  std::array<std::uint32_t, 4> c = counter_;
-  std::array<std::uint32_t, 2> k = key_;
   for (int round = 0; round < 10; ++round) {
     const std::uint64_t p0 = std::uint64_t{kM0} * c[0];
     const std::uint64_t p1 = std::uint64_t{kM1} * c[2];
@@ -24,6 +16,17 @@ void RandomStream::Refill() {
     k[0] += kW0;
     k[1] += kW1;
   }
+  return c;
+}
+
+RandomStream::RandomStream(std::uint64_t seed, std::string_view name) {
+  const std::uint64_t h = HashName(name);
+  key_ = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+  counter_ = {0, 0, static_cast<std::uint32_t>(h), static_cast<std::uint32_t>(h >> 32)};
+}
+
+void RandomStream::Refill() {
+  const std::array<std::uint32_t, 4> c = Philox4x32(counter_, key_);
   block_ = {std::uint64_t{c[0]} << 32 | c[1], std::uint64_t{c[2]} << 32 | c[3]};
   if (++counter_[0] == 0) ++counter_[1];
   used_ = 0;

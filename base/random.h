@@ -8,6 +8,9 @@
 
 namespace alula::base {
 
+/// One block of the counter-based generator Philox4x32-10 (Salmon et al. 2011).
+std::array<std::uint32_t, 4> Philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+
 /// A counter-based stream of random numbers keyed by the run's seed and the stream's name ("vehicle0/imu.gyro"), so
 /// that a new sensor never shifts another one's noise. Philox4x32-10 (Salmon et al. 2011); equal on every machine.
 class RandomStream {

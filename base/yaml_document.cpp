@@ -119,7 +119,7 @@ class Extender {
   }
 
   void Resolve(Node& node, const std::vector<std::string>& path) {
-    ApplyHere(node, path);
+    SetOwnExtends(node, path);
     const std::size_t depth = chain_.size();
     while (node.IsMap()) {
       const Node::Entry* entry = node.Find("extends");
@@ -135,6 +135,7 @@ class Extender {
         throw InputError(below.where, "", "is " + WhatIs(below) + "; `extends` wants a file with a map");
       node = Merge(below, node);
     }
+    MakeWay(node, path);
     for (std::size_t i = 0; i < node.list.size(); ++i) Descend(node.list[i], path, std::to_string(i));
     for (Node::Entry& entry : node.map) Descend(entry.value, path, entry.key);
     chain_.resize(depth);
@@ -152,20 +153,32 @@ class Extender {
     Resolve(node, path);
   }
 
-  /// The settings that name this map's `extends`, and the way to deeper ones that the files do not mention.
-  void ApplyHere(Node& node, const std::vector<std::string>& path) {
+  /// The settings below `path`, each with the part of its path that follows.
+  template <typename Function>
+  void ForSettingsBelow(const std::vector<std::string>& path, const Function& function) const {
     for (const Setting& setting : settings_) {
       if (setting.path.size() <= path.size() || !std::equal(path.begin(), path.end(), setting.path.begin())) continue;
-      const std::string& part = setting.path[path.size()];
-      if (node.IsList()) continue;
-      EnsureMap(node, setting.value.where);
-      if (setting.path.size() == path.size() + 1) {
-        node.Remove("extends");
-        node.map.push_back({part, setting.value.where, setting.value});
-      } else if (node.IsMap() && node.Find(part) == nullptr && node.Find("extends") == nullptr) {
-        node.map.push_back({part, setting.value.where, NullAt(setting.value.where)});
-      }
+      function(setting, setting.path[path.size()], setting.path.size() == path.size() + 1);
     }
+  }
+
+  void SetOwnExtends(Node& node, const std::vector<std::string>& path) const {
+    ForSettingsBelow(path, [&](const Setting& setting, const std::string& part, bool last) {
+      if (!last || node.IsList() || node.IsScalar()) return;
+      EnsureMap(node, setting.value.where);
+      node.Remove("extends");
+      node.map.push_back({part, setting.value.where, setting.value});
+    });
+  }
+
+  /// The way to an `extends` in a map that no file mentions.
+  void MakeWay(Node& node, const std::vector<std::string>& path) const {
+    ForSettingsBelow(path, [&](const Setting& setting, const std::string& part, bool last) {
+      if (last || node.IsList() || node.IsScalar()) return;
+      EnsureMap(node, setting.value.where);
+      if (node.Find(part) != nullptr) return;
+      node.map.push_back({part, setting.value.where, NullAt(setting.value.where)});
+    });
   }
 
   fs::path Locate(const Node& statement) const {

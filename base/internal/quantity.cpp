@@ -27,10 +27,11 @@ Unit DeclaredUnit(std::string_view unit) {
   return *parsed;
 }
 
-/// "a mass is wanted, for example `0.75 kg`".
+/// "a mass is wanted, for example `0.75 kg`". People write angles in degrees.
 std::string Wanted(std::string_view unit, std::string_view example) {
   const Unit declared = DeclaredUnit(unit);
   std::string text = DimensionName(declared, unit) + " is wanted, for example `" + std::string(example);
+  if (unit == "rad") return text + " deg`";
   if (!declared.IsPure()) text += " " + std::string(unit);
   return text + "`";
 }
@@ -180,7 +181,7 @@ std::uint64_t ParseUnsigned(std::string_view text, std::string_view unit) {
   return ParseWhole<std::uint64_t>(text, unit);
 }
 
-void CheckRange(double value, const FieldInfo& info, std::string_view unit) {
+void CheckRange(double value, const FieldInfo& info, std::string_view unit, std::string_view text) {
   if (value >= info.min && value <= info.max) return;
   const bool below = std::isfinite(info.min), above = std::isfinite(info.max);
   std::string limits;
@@ -191,7 +192,7 @@ void CheckRange(double value, const FieldInfo& info, std::string_view unit) {
   } else {
     limits = "it must be at most " + Format(info.max, unit);
   }
-  Fail(Format(value, unit) + " is out of range; " + limits);
+  Fail(Quoted(text) + " is out of range; " + limits);
 }
 
 std::string Digits(double value) {

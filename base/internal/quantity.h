@@ -20,8 +20,8 @@ Rate ParseRate(std::string_view text);
 std::int64_t ParseInteger(std::string_view text, std::string_view unit);
 std::uint64_t ParseUnsigned(std::string_view text, std::string_view unit);
 
-/// Throws when `value` lies outside info.min … info.max; `unit` is for the message.
-void CheckRange(double value, const FieldInfo& info, std::string_view unit);
+/// Throws when `value` lies outside info.min … info.max; `text`, what the user wrote, and `unit` are for the message.
+void CheckRange(double value, const FieldInfo& info, std::string_view unit, std::string_view text);
 
 /// Shortest digits that read back to the same bits.
 std::string Digits(double value);
