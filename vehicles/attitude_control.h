@@ -7,11 +7,11 @@
 namespace alula::vehicles {
 
 struct AttitudeControlConfig {
-  double attitude_gain = 9.0;                   // 1/s, roll and pitch
+  double attitude_gain = 10.0;                  // 1/s, roll and pitch
   double yaw_gain = 3.0;                        // 1/s
   double maximum_rate = 6.0;                    // rad/s, roll and pitch
   double maximum_yaw_rate = 2.5;                // rad/s
-  base::Vec3 rate_gain{22, 22, 8};              // 1/s: angular acceleration per rate error
+  base::Vec3 rate_gain{24, 24, 8};              // 1/s: angular acceleration per rate error
   base::Vec3 rate_integral{40, 40, 8};          // 1/s²
   base::Vec3 rate_derivative{0.25, 0.25, 0.0};  // of measured angular acceleration, pure number
   base::Vec3 maximum_integral{20, 20, 6};       // rad/s²

@@ -13,6 +13,18 @@ constexpr double kCarriedOn = 0.1;          // s that a set-point is extrapolate
 constexpr double kTakeoffStep = 0.15;       // m above the vehicle that a set-point must be to start the climb
 constexpr double kTakeoffSpeed = 0.1;       // m/s, the same for a velocity
 constexpr double kDescentAcceleration = 1;  // m/s²
+constexpr double kLargestJerk = 12;         // m/s³; more is a change of plan, not a trajectory
+
+/// Jerk from the accelerations of two successive position set-points that lie close in time; zero otherwise.
+Vec3 JerkBetween(const std::optional<stack::Command>& before, const stack::Command& after) {
+  const auto* a = before ? std::get_if<stack::PositionSetpoint>(&before->what) : nullptr;
+  const auto* b = std::get_if<stack::PositionSetpoint>(&after.what);
+  if (!a || !b) return Vec3::Zero();
+  const double dt = (after.issued - before->issued).Seconds();
+  if (dt <= 0 || dt > kCarriedOn) return Vec3::Zero();
+  const Vec3 jerk = (b->a_OB - a->a_OB) / dt;
+  return jerk.norm() <= kLargestJerk ? jerk : Vec3::Zero();
+}
 }  // namespace
 
 void Describe(base::Description& d, FailsafeConfig& c) {
@@ -33,8 +45,10 @@ void FlightModes::Receive(const stack::Command& command) {
   } else if (std::holds_alternative<stack::Disarm>(command.what)) {
     disarm_ = true;
   } else {
+    const std::optional<stack::Command> before = motion_;
     motion_ = command;
     fresh_ = true;
+    jerk_ = JerkBetween(before, command);
   }
 }
 
@@ -135,6 +149,7 @@ MotionSetpoint FlightModes::Followed(Time now) const {
     m.p_OB = p->p_OB + dt * (p->v_OB + 0.5 * dt * p->a_OB);
     m.v_OB = p->v_OB + dt * p->a_OB;
     m.a_OB = p->a_OB;
+    m.jerk_OB = jerk_;
     m.yaw = p->yaw + dt * p->yaw_rate;
     m.yaw_rate = p->yaw_rate;
   } else if (const auto* v = std::get_if<stack::VelocitySetpoint>(&motion_->what)) {

@@ -75,6 +75,7 @@ class FlightModes {
   bool disarm_ = false;
   std::optional<stack::Command> motion_;  // the last command that moves: set-point, Hold or Land
   bool fresh_ = false;                    // it came after the last Step
+  base::Vec3 jerk_ = base::Vec3::Zero();  // m/s³, from successive set-points
   base::Time entered_;                    // when the mode began
   base::Time silent_since_;
   double takeoff_height_ = 0;

@@ -27,6 +27,7 @@ void Describe(base::Description& d, PositionControlConfig& c) {
           {.meaning = "least collective thrust in flight over weight", .min = 0.01, .max = 0.9});
   gain("maximum_integral", c.maximum_integral, "m/s^2", "limit of each integral");
   gain("drag_compensation", c.drag_compensation, "1/s", "acceleration per horizontal velocity, fed forward");
+  gain("acceleration_lead", c.acceleration_lead, "s", "how far ahead the set-point's acceleration is taken");
 }
 
 Vec3 LimitThrust(const Vec3& f, double maximum_tilt, double minimum, double maximum) {
@@ -59,7 +60,8 @@ Vec3 PositionControl::Step(const MotionSetpoint& setpoint, const Vec3& p_OB, con
   const Vec3 error = v_sp - v_OB;
   const Vec3 gain(c.velocity_gain, c.velocity_gain, c.vertical_velocity_gain);
   const Vec3 drag = c.drag_compensation * Vec3(v_sp.x(), v_sp.y(), 0);
-  const Vec3 wanted = setpoint.a_OB + gain.cwiseProduct(error) + integral_ + drag + Vec3(0, 0, base::kGravity);
+  const Vec3 wanted = setpoint.a_OB + c.acceleration_lead * setpoint.jerk_OB + gain.cwiseProduct(error) + integral_ +
+                      drag + Vec3(0, 0, base::kGravity);
   const Vec3 f = LimitThrust(wanted, c.maximum_tilt, c.minimum_thrust * base::kGravity, maximum_thrust);
 
   if (integrate) {

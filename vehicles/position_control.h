@@ -6,8 +6,8 @@
 namespace alula::vehicles {
 
 struct PositionControlConfig {
-  double position_gain = 2.0;           // 1/s
-  double velocity_gain = 4.0;           // 1/s
+  double position_gain = 2.5;           // 1/s
+  double velocity_gain = 5.0;           // 1/s
   double velocity_integral = 1.5;       // 1/s²
   double vertical_position_gain = 2.0;  // 1/s
   double vertical_velocity_gain = 6.0;  // 1/s
@@ -20,6 +20,8 @@ struct PositionControlConfig {
   double minimum_thrust = 0.15;         // least collective in flight, share of weight: attitude stays controllable
   double maximum_integral = 3.5;        // m/s²: wind and drag
   double drag_compensation = 0.3;       // 1/s, rotor drag of the set-point's velocity, fed forward
+  /// Acceleration and jerk of the set-point are taken this much ahead, s: what attitude and motors lag behind.
+  double acceleration_lead = 0.10;
 };
 void Describe(base::Description& d, PositionControlConfig& c);
 
@@ -28,6 +30,7 @@ struct MotionSetpoint {
   base::Vec3 p_OB = base::Vec3::Zero();
   base::Vec3 v_OB = base::Vec3::Zero();
   base::Vec3 a_OB = base::Vec3::Zero();
+  base::Vec3 jerk_OB = base::Vec3::Zero();  // m/s³
   double yaw = 0.0;
   double yaw_rate = 0.0;
   base::Vec3 position_weight = base::Vec3::Ones();
