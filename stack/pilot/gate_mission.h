@@ -6,39 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "base/describe.h"
 #include "stack/interface/calibration.h"
 #include "stack/interface/mission.h"
 #include "stack/interface/navigation_stack.h"
 #include "stack/mapping/clearance_field.h"
 #include "stack/perception/gate_finder.h"
+#include "stack/pilot/gate_mission_config.h"
 #include "stack/pilot/map_alignment.h"
 #include "stack/planning/route_planner.h"
 
 namespace alula::stack::pilot {
-
-struct GateMissionConfig {
-  double takeoff_height = 1.2;   // m above the pad
-  double takeoff_speed = 0.8;    // m/s
-  double scan_half_angle = 1.3;  // rad to each side of the start heading
-  double scan_rate = 1.2;        // rad/s
-  double good_sigma = 0.08;      // m in the opening's plane: a gate measured this well may be entered
-  double good_range = 3.3;       // m; it must have been seen from this near
-  double coarse_sigma = 0.16;    // m, accepted after the first look in vain
-  double freeze_distance = 1.1;  // m before the plane: the frame leaves the view, the fit is kept
-  double view_distance = 2.4;    // m before a gate that is not measured well enough
-  base::Duration look_time = base::Milliseconds(1500);      // at a view point before another is tried
-  base::Duration stuck_time = base::Milliseconds(1500);     // at rest without progress before recovery
-  base::Duration lost_time = base::Milliseconds(2500);      // without healthy odometry before landing
-  base::Duration setpoint_period = base::Milliseconds(10);  // 100 Hz
-  base::Duration command_lifetime = base::Milliseconds(500);
-  double arrival_radius = 0.3;      // m, at the target
-  double tracking_tolerance = 0.9;  // m between set-point and estimate before the mission starts over from a hover
-  double creep_speed = 0.6;         // m/s where recovery flies on into space that was hardly seen
-  /// Control experiment: take the gates from the mission's list, as if they had been measured there.
-  bool trust_gate_list = false;
-};
-void Describe(base::Description& d, GateMissionConfig& c);
 
 /// What the mission is told each tick.
 struct MissionInput {
@@ -77,7 +54,7 @@ class GateMission {
   int next_gate() const;
   /// Map frame ← odometry frame, as the measured gates suggest.
   const base::Transform& X_MO() const;
-  /// What is being flown, m, and the gates as used; for pictures.
+  /// What is being flown, m, and the gates measured so far; for pictures.
   const std::vector<base::Vec3>& path_O() const;
   std::vector<base::Transform> gates_O() const;
   /// Grows when path or gates change.

@@ -22,7 +22,7 @@ struct Passage {
   /// Not measured well enough to be entered: the route stops at a view point before it.
   bool closed = false;
   /// For a closed passage: where to look from, in order of preference; the first that can be reached is taken.
-  std::vector<base::Vec3> views_O;
+  std::vector<base::Vec3> views_O{};
 };
 
 /// A capsule that counts as known-free: the take-off column, the place where the vehicle is.

@@ -33,9 +33,10 @@ class YawFilter {
 
   void Step(double error) {
     const double wanted = kYawBandwidth * (kYawBandwidth * error - 2.0 * rate_);
+    const double before = rate_;
     rate_ += std::clamp(wanted, -max_acceleration_, max_acceleration_) * kYawPeriod;
     rate_ = std::clamp(rate_, -max_rate_, max_rate_);
-    yaw_ += rate_ * kYawPeriod;
+    yaw_ += 0.5 * (before + rate_) * kYawPeriod;
   }
   double yaw() const { return yaw_; }
   double rate() const { return rate_; }
@@ -211,8 +212,9 @@ TrajectoryPoint Trajectory::Sample(base::Time t) const {
   const double k = std::min(time / kYawPeriod, static_cast<double>(yaw_.size() - 1));
   const auto j = std::min(static_cast<std::size_t>(k), yaw_.size() - 2);
   const double share = std::min(k - static_cast<double>(j), 1.0);
-  point.yaw = yaw_[j] + share * (yaw_[j + 1] - yaw_[j]);
+  const double turn = share * kYawPeriod;
   point.yaw_rate = yaw_rate_[j] + share * (yaw_rate_[j + 1] - yaw_rate_[j]);
+  point.yaw = yaw_[j] + 0.5 * turn * (yaw_rate_[j] + point.yaw_rate);
   return point;
 }
 

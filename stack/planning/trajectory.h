@@ -77,8 +77,8 @@ class Trajectory {
   struct AlongOptions {
     double stop_at = -1.0;   // arc length where it ends, m; negative: the curve's end
     double end_speed = 0.0;  // m/s there
-    std::vector<SpeedZone> zones;
-    std::optional<double> final_yaw;  // rad, at the end
+    std::vector<SpeedZone> zones{};
+    std::optional<double> final_yaw{};  // rad, at the end
   };
   /// Along a curve that starts at StartPoint(state). Nothing when the state is too fast to keep the limits (braking may
   /// use twice the acceleration before that).

@@ -1,0 +1,305 @@
+#include "stack/pilot/visual_inertial_stack.h"
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "base/error.h"
+#include "stack/estimation/imu_propagator.h"
+#include "stack/pilot/job_queue.h"
+
+namespace alula::stack::pilot {
+
+using base::Time;
+using base::Transform;
+using base::Vec3;
+
+namespace {
+
+constexpr base::Duration kControlPeriod = base::Milliseconds(5);  // of the mission's decisions
+constexpr base::Duration kNotePeriod = base::Milliseconds(1000);  // between two reports of degraded odometry
+constexpr double kColumnReserve = 0.5;                            // m above the take-off height that is declared free
+constexpr double kOpeningSigma = 0.1;                             // m; a gate known this well tells what its opening is
+constexpr double kOpeningDepth = 0.3;                             // m to each side of the plane declared free
+constexpr double kOpeningMargin = 0.15;                           // m kept from the bars
+constexpr std::size_t kFramesWaiting = 8;                         // pairs that may wait for their second eye
+
+struct StereoFrame {
+  Time stamp;
+  std::optional<Image> left, right;
+};
+
+struct MapResult {
+  std::shared_ptr<const mapping::ClearanceField> field;
+  std::vector<std::optional<perception::GateObservation>> gates;
+  std::vector<Eigen::Vector3f> occupied_O;
+};
+
+struct OdometryOutput {
+  estimation::FrameResult frame;
+  estimation::OdometryTiming timing;
+};
+
+/// The slow parts with their state. Each is touched by the jobs of one strand only.
+struct Workshop {
+  Workshop(const Calibration& calibration, const Mission& mission, const VisualInertialConfig& config)
+      : odometry(calibration, config.odometry, mission.X_WB_start),
+        depth(calibration, config.depth),
+        map(config.map, mission.bounds_low - Vec3::Constant(config.map_margin),
+            mission.bounds_high + Vec3::Constant(config.map_margin)),
+        gates(mission.gates, config.gate_finder),
+        planner(planning::MakeInformedRrtStarPlanner(config.route.planner)) {
+    const Vec3 ground = mission.X_WB_start.p - Vec3(0, 0, calibration.standing_height);
+    map.DeclareFree(ground, mission.takeoff_column_radius, config.mission.takeoff_height + kColumnReserve);
+  }
+
+  MapResult Map(const Image& left, const Image& right, const Transform& X_OB, const Transform& X_MO) {
+    const mapping::DepthMap view = depth.Compute(left, right);
+    const Transform X_OC = X_OB * view.X_BC;
+    map.Insert(view, X_OC);
+    gates.Add(view, X_OC, X_MO);
+    MapResult result;
+    for (int i = 0; i < gates.size(); ++i) {
+      result.gates.push_back(gates.Best(i));
+      const auto& gate = result.gates.back();
+      if (!gate || gate->position_sigma > kOpeningSigma) continue;
+      const double half = 0.5 * gate->opening - kOpeningMargin;
+      if (half > 0.0) map.DeclareFreeBox(gate->X_OG, Vec3(kOpeningDepth, half, half));
+    }
+    result.field = map.Snapshot();
+    result.occupied_O = map.OccupiedCells();
+    return result;
+  }
+
+  estimation::StereoInertialOdometry odometry;  // strand "odometry"
+  mapping::StereoDepth depth;                   // strand "mapping", as the next two
+  mapping::OccupancyMap map;
+  perception::GateFinder gates;
+  std::unique_ptr<planning::GlobalPlanner> planner;  // strand "planning"
+};
+
+class VisualInertialStack : public NavigationStack {
+ public:
+  VisualInertialStack(const Calibration& calibration, const Mission& mission, const VisualInertialConfig& config,
+                      std::uint64_t seed, int workers)
+      : calibration_(calibration),
+        config_(config),
+        workshop_(calibration, mission, config),
+        propagator_(calibration),
+        mission_(calibration, mission, config.mission, config.route, config.alignment, config.latency.planning, seed),
+        jobs_(workers) {
+    const auto& eyes = *calibration.stereo;
+    left_ = calibration.cameras.at(static_cast<std::size_t>(eyes[0]));
+    right_ = calibration.cameras.at(static_cast<std::size_t>(eyes[1]));
+  }
+
+  StackOutput Step(Time now, std::span<const Measurement> measurements) override {
+    StackOutput output;
+    out_ = &output;
+    for (const Measurement& measurement : measurements) Take(measurement);
+    jobs_.Join(now);
+    StartOdometry(now);
+    if (now >= next_control_) {
+      next_control_ = now + kControlPeriod;
+      Control(now);
+    }
+    output.state = mission_.state();
+    output.next_gate = mission_.next_gate();
+    output.view = view_;
+    out_ = nullptr;
+    return output;
+  }
+
+  std::vector<StageTime> Timing() const override {
+    std::vector<StageTime> stages = jobs_.Timing();
+    const auto part = [&](const char* name, double ms) {
+      stages.push_back({.name = name, .wall_ms = ms, .calls = timing_.frames});
+    };
+    part("odometry/track", timing_.track);
+    part("odometry/detect", timing_.detect);
+    part("odometry/solve", timing_.solve);
+    part("odometry/covariance", timing_.covariance);
+    part("odometry/marginalise", timing_.marginalise);
+    return stages;
+  }
+
+ private:
+  void Take(const Measurement& measurement) {
+    if (const auto* imu = std::get_if<ImuSample>(&measurement.data)) {
+      if (measurement.sensor != calibration_.imu->sensor) return;
+      const estimation::TimedImu sample{measurement.captured, imu->angular_velocity, imu->specific_force};
+      propagator_.AddImu(sample);
+      imu_.push_back(sample);
+    } else if (const auto* image = std::get_if<Image>(&measurement.data)) {
+      if (measurement.sensor != left_.sensor && measurement.sensor != right_.sensor) return;
+      StereoFrame& frame = frames_[measurement.seq];
+      if (measurement.sensor == left_.sensor) {
+        frame.left = *image;
+        frame.stamp = measurement.captured + left_.time_offset;
+      } else {
+        frame.right = *image;
+      }
+      while (frames_.size() > kFramesWaiting) frames_.erase(frames_.begin());  // an eye that never came
+    } else if (const auto* status = std::get_if<VehicleStatus>(&measurement.data)) {
+      status_ = *status;
+    }
+  }
+
+  /// The oldest whole pair whose inertial samples are complete goes to the odometry.
+  void StartOdometry(Time now) {
+    while (!frames_.empty()) {
+      const auto& [seq, frame] = *frames_.begin();
+      const bool whole = frame.left && frame.right;
+      if (!whole) {
+        const bool later_whole = frames_.size() > 1 && frames_.rbegin()->second.left && frames_.rbegin()->second.right;
+        if (!later_whole) return;
+        frames_.erase(frames_.begin());
+        continue;
+      }
+      if (imu_.empty() || imu_.back().time < frame.stamp) return;
+      estimation::FrameInput input{seq, frame.stamp, *frame.left, *frame.right, {}};
+      std::size_t used = 0;
+      while (used < imu_.size() && (used == 0 || imu_[used - 1].time < frame.stamp)) ++used;
+      input.imu.assign(imu_.begin(), imu_.begin() + static_cast<std::ptrdiff_t>(used));
+      auto pair = std::make_shared<const StereoFrame>(frame);
+      const bool started = jobs_.Start(
+          "odometry", "odometry", now, config_.latency.odometry,
+          [this, input = std::move(input)] {
+            return OdometryOutput{workshop_.odometry.Process(input), workshop_.odometry.Timing()};
+          },
+          [this, now, pair](OdometryOutput result) { OnFrame(now + config_.latency.odometry, *pair, result); });
+      if (started) imu_.erase(imu_.begin(), imu_.begin() + static_cast<std::ptrdiff_t>(used));
+      frames_.erase(frames_.begin());
+    }
+  }
+
+  void OnFrame(Time now, const StereoFrame& pair, OdometryOutput& output) {
+    const estimation::FrameResult& frame = output.frame;
+    timing_ = output.timing;
+    propagator_.Correct(frame);
+    ReportOdometry(now, frame);
+    initialised_ = frame.initialised;
+    if (initialised_ && frame.seq % static_cast<std::uint32_t>(config_.depth_every) == 0) {
+      jobs_.Start(
+          "mapping", "mapping", now, config_.latency.mapping,
+          [this, left = *pair.left, right = *pair.right, X_OB = frame.state.X_OB, X_MO = mission_.X_MO()] {
+            return workshop_.Map(left, right, X_OB, X_MO);
+          },
+          [this, now](MapResult result) {
+            mission_.OnMap(now + config_.latency.mapping, result.field, result.gates);
+            occupied_O_ = std::move(result.occupied_O);
+          });
+    }
+    auto view = std::make_shared<StackView>();
+    view->image_seq = frame.seq;
+    view->features = frame.features;
+    view->path_O = mission_.path_O();
+    view->occupied_O = occupied_O_;
+    view->cell = config_.map.cell;
+    view->gates_O = mission_.gates_O();
+    view->X_MO = mission_.X_MO();
+    view_ = std::move(view);
+  }
+
+  void ReportOdometry(Time now, const estimation::FrameResult& frame) {
+    const auto say = [&](const char* kind, const std::string& text) { out_->events.push_back({now, kind, text}); };
+    if (frame.initialised && !ever_initialised_) say("odometry_initialised", "stood still long enough");
+    if (ever_initialised_ && frame.reset_counter != reset_counter_) say("odometry_reset", frame.note);
+    ever_initialised_ = ever_initialised_ || frame.initialised;
+    reset_counter_ = frame.reset_counter;
+    if (frame.note.empty() || frame.note == last_note_ || now < next_note_) return;
+    last_note_ = frame.note;
+    next_note_ = now + kNotePeriod;
+    say("odometry_note", frame.note);
+  }
+
+  void Control(Time now) {
+    const std::optional<Estimate> estimate = propagator_.At(now);
+    MissionInput input;
+    input.now = now;
+    input.initialised = initialised_ && estimate.has_value();
+    input.healthy = input.initialised;
+    if (estimate) {
+      input.X_OB = estimate->X_OB;
+      input.v_OB = estimate->v_OB;
+    }
+    if (status_) input.status = *status_;
+    input.status_known = status_.has_value();
+    MissionOutput decided = mission_.Update(input);
+    for (Command& command : decided.commands) out_->commands.push_back(std::move(command));
+    for (StackEvent& event : decided.events) out_->events.push_back(std::move(event));
+    if (decided.request) {
+      jobs_.Start(
+          "planning", "planning", now, config_.latency.planning,
+          [this, request = std::move(*decided.request)] {
+            return planning::PlanRoute(request, config_.route, *workshop_.planner);
+          },
+          [this, now](planning::RouteResult result) {
+            mission_.OnRoute(now + config_.latency.planning, std::move(result));
+          });
+    }
+    if (estimate && initialised_ && now >= next_estimate_) {
+      next_estimate_ = now + config_.estimate_period;
+      out_->estimate = estimate;
+      if (config_.publish_alignment) out_->estimate->X_MO = mission_.X_MO();
+    }
+  }
+
+  Calibration calibration_;
+  VisualInertialConfig config_;
+  CameraCalibration left_, right_;
+  Workshop workshop_;
+  estimation::ImuPropagator propagator_;
+  GateMission mission_;
+
+  StackOutput* out_ = nullptr;  // during Step
+  std::deque<estimation::TimedImu> imu_;
+  std::map<std::uint32_t, StereoFrame> frames_;
+  std::optional<VehicleStatus> status_;
+  Time next_control_, next_estimate_, next_note_;
+  bool initialised_ = false, ever_initialised_ = false;
+  std::uint32_t reset_counter_ = 0;
+  std::string last_note_;
+  std::vector<Eigen::Vector3f> occupied_O_;
+  std::shared_ptr<const StackView> view_;
+  estimation::OdometryTiming timing_;
+
+  JobQueue jobs_;  // last: its jobs use all of the above
+};
+
+}  // namespace
+
+void Describe(base::Description& d, DeclaredLatencies& c) {
+  d.Field("odometry", c.odometry, {.unit = "s", .meaning = "a stereo pair through the odometry"});
+  d.Field("mapping", c.mapping, {.unit = "s", .meaning = "depth, map and gates of a stereo pair"});
+  d.Field("planning", c.planning, {.unit = "s", .meaning = "a route"});
+}
+
+void Describe(base::Description& d, VisualInertialConfig& c) {
+  d.Field("odometry", c.odometry, {.meaning = "stereo-inertial odometry"});
+  d.Field("depth", c.depth, {.meaning = "dense stereo"});
+  d.Field("map", c.map, {.meaning = "occupancy"});
+  d.Field("gate_finder", c.gate_finder, {.meaning = "measures gates in depth maps"});
+  d.Field("route", c.route, {.meaning = "planning"});
+  d.Field("alignment", c.alignment, {.meaning = "map frame from measured gates"});
+  d.Field("mission", c.mission, {.meaning = "what is flown when"});
+  d.Field("latency", c.latency, {.meaning = "declared compute times"});
+  d.Field("depth_every", c.depth_every,
+          {.meaning = "every this many-th stereo pair goes into the map", .min = 1, .max = 1000});
+  d.Field("estimate_period", c.estimate_period, {.unit = "s", .meaning = "between estimates sent to the autopilot"});
+  d.Field("map_margin", c.map_margin,
+          {.unit = "m", .meaning = "of map around the mission's bounds", .min = 0, .max = 50});
+  d.Field("publish_alignment", c.publish_alignment,
+          {.meaning = "send the map frame as the gates suggest it (it jumps), instead of identity"});
+}
+
+std::unique_ptr<NavigationStack> MakeVisualInertialStack(const Calibration& calibration, const Mission& mission,
+                                                         const VisualInertialConfig& config, std::uint64_t seed,
+                                                         int workers) {
+  if (!calibration.stereo) throw base::InputError("the visual-inertial stack needs a stereo pair of cameras");
+  if (!calibration.imu) throw base::InputError("the visual-inertial stack needs an IMU");
+  return std::make_unique<VisualInertialStack>(calibration, mission, config, seed, workers);
+}
+
+}  // namespace alula::stack::pilot
