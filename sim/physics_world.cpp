@@ -84,7 +84,20 @@ struct PhysicsWorld::Impl {
   void AddObjects(const worlds::World& description, const SurfaceConfig& surface);
   void AddVehicle(const vehicles::VehicleBody& body, const vehicles::BodyState& start, const SurfaceConfig& surface);
   void Place(const vehicles::BodyState& start);
-  void KeepAngularMomentum(const base::Mat3& R_WP_before);
+  /// Rotation at the begin of a step; see PhysicsWorld.
+  struct Spin {
+    base::Mat3 R_WP;
+    base::Vec3 L_W, w_middle_W;
+  };
+  base::Mat3 Attitude() const;
+  base::Vec3 Momentum(const base::Mat3& R_WP, const base::Vec3& w_W) const {
+    return R_WP * moments.cwiseProduct(R_WP.transpose() * w_W);
+  }
+  base::Vec3 Velocity(const base::Mat3& R_WP, const base::Vec3& L_W) const {
+    return R_WP * (R_WP.transpose() * L_W).cwiseQuotient(moments);
+  }
+  Spin BeginRotation(base::Duration dt);
+  void EndRotation(const Spin& spin);
   void ReadState();
   void ReadContacts();
 };
@@ -134,7 +147,7 @@ void PhysicsWorld::Impl::AddVehicle(const vehicles::VehicleBody& body, const veh
   info.m_linearDamping = 0.0;
   info.m_angularDamping = 0.0;
   vehicle = std::make_unique<btRigidBody>(info);
-  vehicle->setFlags(0);  // no gyroscopic force of Bullet's: KeepAngularMomentum does it
+  vehicle->setFlags(0);  // no gyroscopic force of Bullet's: BeginRotation and EndRotation do it
   if (body.prescribed) vehicle->setCollisionFlags(btCollisionObject::CF_KINEMATIC_OBJECT);
   vehicle->setActivationState(DISABLE_DEACTIVATION);
   vehicle->setSleepingThresholds(0.0, 0.0);
@@ -152,11 +165,22 @@ void PhysicsWorld::Impl::Place(const vehicles::BodyState& start) {
   vehicle->updateInertiaTensor();
 }
 
-void PhysicsWorld::Impl::KeepAngularMomentum(const base::Mat3& R_WP_before) {
-  const base::Mat3 R_WP = FromBullet(vehicle->getWorldTransform()).R();
+base::Mat3 PhysicsWorld::Impl::Attitude() const { return FromBullet(vehicle->getWorldTransform()).R(); }
+
+PhysicsWorld::Impl::Spin PhysicsWorld::Impl::BeginRotation(base::Duration dt) {
+  Spin spin;
+  spin.R_WP = Attitude();
   const base::Vec3 w_W = FromBullet(vehicle->getAngularVelocity());
-  const base::Vec3 L_W = R_WP_before * moments.cwiseProduct(R_WP_before.transpose() * w_W);
-  vehicle->setAngularVelocity(ToBullet(base::Vec3(R_WP * (R_WP.transpose() * L_W).cwiseQuotient(moments))));
+  spin.L_W = Momentum(spin.R_WP, w_W);
+  spin.w_middle_W = Velocity(base::Exp(0.5 * dt.Seconds() * w_W).toRotationMatrix() * spin.R_WP, spin.L_W);
+  vehicle->setAngularVelocity(ToBullet(spin.w_middle_W));
+  return spin;
+}
+
+void PhysicsWorld::Impl::EndRotation(const Spin& spin) {
+  const base::Vec3 w_W = FromBullet(vehicle->getAngularVelocity());
+  const base::Vec3 L_W = spin.L_W + Momentum(spin.R_WP, w_W - spin.w_middle_W);
+  vehicle->setAngularVelocity(ToBullet(Velocity(Attitude(), L_W)));
 }
 
 void PhysicsWorld::Impl::ReadState() {
@@ -190,6 +214,11 @@ PhysicsWorld::PhysicsWorld(const worlds::World& world, const vehicles::VehicleBo
   m.world.setGravity(btVector3(0.0, 0.0, -base::kGravity));
   m.world.setForceUpdateAllAabbs(false);
   m.world.getDispatchInfo().m_deterministicOverlappingPairs = true;
+  // Penetration is undone by moving, never by a velocity (the vehicle would hop on its legs), down to a tenth of a
+  // millimetre, which is left so that resting contacts persist.
+  m.world.getSolverInfo().m_splitImpulse = 1;
+  m.world.getSolverInfo().m_splitImpulsePenetrationThreshold = 0.0;
+  m.world.getSolverInfo().m_linearSlop = 1e-4;
   m.AddObjects(world, surface);
   m.AddVehicle(body, start, surface);
   DetectContacts();
@@ -202,11 +231,11 @@ PhysicsWorld::~PhysicsWorld() {
 
 void PhysicsWorld::Step(const vehicles::Wrench& wrench, base::Duration dt) {
   Impl& m = *impl_;
-  const base::Mat3 R_WP_before = FromBullet(m.vehicle->getWorldTransform()).R();
+  const Impl::Spin spin = m.BeginRotation(dt);
   m.vehicle->applyCentralForce(ToBullet(wrench.force_W));
   m.vehicle->applyTorque(ToBullet(wrench.torque_W));
   m.world.stepSimulation(dt.Seconds(), 0);  // 0 substeps: exactly one step of dt
-  m.KeepAngularMomentum(R_WP_before);
+  m.EndRotation(spin);
   m.ReadState();
   m.ReadContacts();
 }

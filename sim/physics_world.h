@@ -45,9 +45,11 @@ struct SurfaceConfig {
 /// The rigid-body world: one vehicle among static objects, in Bullet with double precision.
 ///
 /// One `Step`: the wrench and gravity act at the centre of mass for dt, contacts are solved, the body moves
-/// (semi-implicit Euler), then the angular momentum, not the angular velocity, is carried over to the new attitude:
-///   L = R_k I R_kᵀ ω,  ω ← R_{k+1} I⁻¹ R_{k+1}ᵀ L,
-/// which is the gyroscopic term integrated so that free rotation keeps L to rounding.
+/// (semi-implicit Euler). The gyroscopic term is not Bullet's. With J(R) = R I Rᵀ and L = J(R_k) ω_k,
+///   ω_½ = J(Exp(½ dt ω_k) R_k)⁻¹ L             what the attitude turns with (explicit midpoint)
+///   Bullet: ω' = ω_½ + torques and contact impulses, R_{k+1} = Exp(dt ω') R_k
+///   ω_{k+1} = J(R_{k+1})⁻¹ (L + J(R_k) (ω' − ω_½))
+/// so that free rotation keeps the angular momentum to rounding and its energy to second order.
 ///
 /// Deterministic: fixed order of bodies, ordered overlapping pairs, no deactivation.
 class PhysicsWorld {

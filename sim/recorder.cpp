@@ -7,6 +7,9 @@
 namespace alula::sim {
 namespace {
 
+/// A part that touches again within this time is still touching: rattling is one event.
+constexpr base::Duration kNewContact = base::Milliseconds(200);
+
 constexpr const char* ModeName(stack::VehicleStatus::Mode mode) {
   switch (mode) {
     case stack::VehicleStatus::Mode::kDisarmed:
@@ -90,14 +93,13 @@ void Recorder::RecordEvents(const StepView& step) {
     AddEvent(step.truth.begin, "autopilot", step.status.ready_to_arm ? "ready_to_arm" : "not_ready_to_arm", "");
   }
   last_status_ = step.status;
-  if (step.contacts.empty() && touching_.empty()) return;
-  std::set<std::pair<std::string_view, std::string_view>> now;
   for (const Contact& contact : step.contacts) {
-    if (!now.emplace(contact.part, contact.object).second || touching_.contains({contact.part, contact.object}))
-      continue;
-    AddEvent(step.time, "world", "contact", fmt::format("{} touches {}", contact.part, contact.object));
+    const auto [entry, first] = touched_.try_emplace({contact.part, contact.object}, step.time);
+    if (first || step.time - entry->second > kNewContact) {
+      AddEvent(step.time, "world", "contact", fmt::format("{} touches {}", contact.part, contact.object));
+    }
+    entry->second = step.time;
   }
-  touching_ = std::move(now);
 }
 
 void Recorder::RecordTelemetry(const StepView& step) {

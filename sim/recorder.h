@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <map>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -50,7 +49,7 @@ class Recorder : public Observer {
   bool telemetry_header_ = false;
   base::Time last_estimate_{-1};
   stack::VehicleStatus last_status_;
-  std::set<std::pair<std::string_view, std::string_view>> touching_;
+  std::map<std::pair<std::string_view, std::string_view>, base::Time> touched_;  // when last
   std::string line_;
 };
 

@@ -51,7 +51,7 @@ class TriangleDistance : public btTriangleCallback {
 }  // namespace
 
 btTransform ToBullet(const base::Transform& X) {
-  return {btQuaternion(X.q.x(), X.q.y(), X.q.z(), X.q.w()), ToBullet(X.p)};
+  return btTransform(btQuaternion(X.q.x(), X.q.y(), X.q.z(), X.q.w()), ToBullet(X.p));
 }
 
 base::Transform FromBullet(const btTransform& X) {

@@ -1,0 +1,79 @@
+#include "scenarios/internal/cli.h"
+
+#include <CLI/CLI.hpp>
+
+#include "base/error.h"
+
+namespace alula::scenarios::internal {
+namespace {
+
+struct Raw {
+  std::string name;
+  std::vector<std::string> sets;
+  std::uint64_t seed = 0;
+  std::string out;
+};
+
+base::Override ParseOverride(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    throw base::InputError("--set " + text + ": must be path.to.key=value");
+  }
+  return {text.substr(0, equals), text.substr(equals + 1)};
+}
+
+CLI::App* AddRun(CLI::App& app, CommandLine& line, Raw& raw) {
+  CLI::App* run = app.add_subcommand("run", "fly a scenario, print its verdict, write runs/<scenario>/<seed>/");
+  run->add_option("scenario", raw.name, "a name of the catalog ('alula list') or a YAML file")->required();
+  run->add_option("--seed", raw.seed, "of all random numbers (default: the scenario's, else 1)");
+  run->add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
+  run->add_option("--out", raw.out, "folder of the run's files (default: runs/<scenario>/<seed>)");
+  run->add_option("--workers", line.workers, "threads inside the run; they change no result")->check(CLI::Range(1, 64));
+  run->add_option("--render", line.render, "who draws the pictures: osmesa, egl or auto")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl"}));
+  run->add_flag("--quiet", line.quiet, "print the last line only");
+  run->add_flag("--json", line.json, "print verdict.json instead of the table");
+  return run;
+}
+
+}  // namespace
+
+std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
+  CLI::App app("Alula flies navigation stacks in closed loop: a Bullet world, rendered cameras, noisy sensors.",
+               "alula");
+  app.require_subcommand(1);
+  Raw raw;
+  CLI::App* run = AddRun(app, line, raw);
+  CLI::App* list = app.add_subcommand("list", "name the scenarios of the catalog");
+  list->add_flag("--json", line.json, "as JSON");
+  CLI::App* check = app.add_subcommand("check", "read scenario files and build what they describe, without flying");
+  check->add_option("files", line.names, "names of the catalog or YAML files")->required();
+  check->add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
+  check->add_option("--seed", raw.seed, "from which distributions are drawn");
+  check->add_flag("--quiet", line.quiet, "print nothing when all is well");
+  CLI::App* bench = app.add_subcommand("bench", "measure, beside a reference in the same run");
+  bench->add_option("names", line.names, "benchmarks (default: all)");
+  bench->add_option("--json", line.json_file, "write one flat object of figures to this file");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) {
+      app.exit(e);
+      return 0;
+    }
+    throw base::InputError(std::string(e.what()) + " ('alula --help' shows how)");
+  }
+  if (run->parsed()) {
+    line.verb = CommandLine::Verb::kRun;
+    line.names = {raw.name};
+  }
+  if (list->parsed()) line.verb = CommandLine::Verb::kList;
+  if (check->parsed()) line.verb = CommandLine::Verb::kCheck;
+  if (bench->parsed()) line.verb = CommandLine::Verb::kBench;
+  if (run->count("--seed") + check->count("--seed") > 0) line.seed = raw.seed;
+  if (!raw.out.empty()) line.out = raw.out;
+  for (const std::string& text : raw.sets) line.overrides.push_back(ParseOverride(text));
+  return std::nullopt;
+}
+
+}  // namespace alula::scenarios::internal

@@ -1,0 +1,146 @@
+#include <unistd.h>
+
+#include <atomic>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/core/utility.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "base/nearest.h"
+#include "bench/bench.h"
+#include "scenarios/environment.h"
+#include "scenarios/internal/cli.h"
+#include "scenarios/progress.h"
+#include "scenarios/runner.h"
+#include "scenarios/scenario.h"
+#include "sim/run_folder.h"
+
+namespace alula::scenarios {
+namespace {
+
+using internal::CommandLine;
+
+constexpr int kBadInput = 2, kFault = 3, kInterrupted = 130;
+
+std::atomic<bool> interrupted{false};
+
+/// The first Ctrl-C ends the run cleanly; a second one kills the program as it would any.
+void CatchInterrupts() {
+  struct sigaction action = {};
+  action.sa_handler = [](int) { interrupted.store(true, std::memory_order_relaxed); };
+  action.sa_flags = SA_RESETHAND;
+  ::sigaction(SIGINT, &action, nullptr);
+  ::sigaction(SIGTERM, &action, nullptr);
+}
+
+int Run(const CommandLine& line) {
+  const Scenario scenario = LoadScenario(FindScenario(line.names.front()), line.overrides, line.seed);
+  RunOptions options;
+  options.workers = line.workers;
+  options.render = line.render;
+  options.out = line.out ? *line.out : std::filesystem::path("runs") / scenario.name / std::to_string(scenario.seed);
+  options.interrupt = &interrupted;
+  Progress progress(scenario.name, LimitOf(scenario.config), !line.quiet && !line.json);
+  options.progress = [&progress](base::Time time) { progress.Show(time); };
+  CatchInterrupts();
+  const Verdict verdict = RunScenario(scenario, options);
+  progress.Clear();
+  const std::string table = ToTable(verdict);
+  if (line.json) {
+    std::fputs(ToJson(verdict).c_str(), stdout);
+  } else if (line.quiet) {
+    std::printf("%s: %s (%s)\n", scenario.name.c_str(), Word(verdict.outcome), verdict.reason.c_str());
+  } else {
+    std::printf("%s  files in %s\n", table.c_str(), options.out->c_str());
+  }
+  return ExitCode(verdict.outcome);
+}
+
+int List(const CommandLine& line) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const std::filesystem::path& file : ListScenarios()) {
+    const Scenario scenario = LoadScenario(file, {}, std::nullopt);
+    json.push_back({{"name", scenario.name}, {"meaning", scenario.config.meaning}});
+    if (!line.json) std::printf("%-20s %s\n", scenario.name.c_str(), scenario.config.meaning.c_str());
+  }
+  if (line.json) std::printf("%s\n", json.dump(2).c_str());
+  return 0;
+}
+
+int CheckFiles(const CommandLine& line) {
+  for (const std::string& name : line.names) {
+    const std::filesystem::path file = FindScenario(name);
+    TryToBuild(LoadScenario(file, line.overrides, line.seed));
+    if (!line.quiet) std::printf("%s: good\n", file.c_str());
+  }
+  return 0;
+}
+
+int Bench(const CommandLine& line) {
+  std::vector<std::string> known;
+  for (const bench::Benchmark& benchmark : bench::Benchmarks()) known.emplace_back(benchmark.name);
+  for (const std::string& name : line.names) {
+    if (std::find(known.begin(), known.end(), name) != known.end()) continue;
+    throw base::InputError("no benchmark is called '" + name + "'; " + base::Suggestion(name, known, "benchmarks"));
+  }
+  bench::Figures figures;
+  for (const bench::Benchmark& benchmark : bench::Benchmarks()) {
+    const bool wanted = std::find(line.names.begin(), line.names.end(), benchmark.name) != line.names.end();
+    if (line.names.empty() || wanted) benchmark.run(figures);
+  }
+  if (line.json_file.empty()) return 0;
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  for (const auto& [key, value] : figures.values) json[key] = value;
+  const std::filesystem::path partial = line.json_file.string() + ".partial";
+  std::ofstream file(partial);
+  file << json.dump(2) << '\n';
+  file.close();
+  std::error_code error;
+  if (file) std::filesystem::rename(partial, line.json_file, error);
+  if (!file || error) throw base::InputError("--json: cannot write " + line.json_file.string());
+  return 0;
+}
+
+int Main(int argc, char** argv) {
+  CommandLine line;
+  if (const std::optional<int> done = internal::ParseCommandLine(argc, argv, line)) return *done;
+  switch (line.verb) {
+    case CommandLine::Verb::kRun:
+      return Run(line);
+    case CommandLine::Verb::kList:
+      return List(line);
+    case CommandLine::Verb::kCheck:
+      return CheckFiles(line);
+    case CommandLine::Verb::kBench:
+      return Bench(line);
+  }
+  return kFault;
+}
+
+}  // namespace
+}  // namespace alula::scenarios
+
+int main(int argc, char** argv) {
+  using namespace alula;
+  scenarios::FixEnvironment(argv);
+  cv::setNumThreads(1);
+  try {
+    return scenarios::Main(argc, argv);
+  } catch (const base::InputError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return scenarios::kBadInput;
+  } catch (const scenarios::Interrupted&) {
+    std::fprintf(stderr, "\ninterrupted: nothing was written\n");
+    return scenarios::kInterrupted;
+  } catch (const base::FaultError& e) {
+    std::fprintf(stderr, "fault (%s): %s\n", e.reason().c_str(), e.what());
+    return scenarios::kFault;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "fault: %s\n", e.what());
+    return scenarios::kFault;
+  }
+}

@@ -1,0 +1,225 @@
+#include "scenarios/runner.h"
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/error.h"
+#include "scenarios/end_of_stack.h"
+#include "scenarios/numeric_class.h"
+#include "scenarios/world_json.h"
+#include "sim/run_digest.h"
+#include "sim/run_folder.h"
+
+namespace alula::scenarios {
+namespace {
+
+constexpr const char* kVehicle = "vehicle0";
+
+/// Hashes what each step did.
+class DigestKeeper : public sim::Observer {
+ public:
+  std::optional<std::string> Observe(const sim::StepView& step) override {
+    digest.Add(step);
+    return std::nullopt;
+  }
+  sim::RunDigest digest;
+};
+
+/// All that a run is made of besides the simulation itself.
+struct Cast {
+  stack::Calibration calibration;  // true
+  std::vector<std::unique_ptr<Criterion>> criteria;
+  std::vector<std::unique_ptr<Spectator>> spectators;
+  DigestKeeper digest;
+  EndOfStack end_of_stack;
+  std::unique_ptr<sim::RunFolder> folder;
+  std::unique_ptr<sim::Recorder> recorder;
+};
+
+std::vector<base::Vec3> Waypoints(const MissionConfig& mission, const base::Transform& X_WB) {
+  std::vector<base::Vec3> waypoints;
+  for (const base::Vec3& w : mission.waypoints) waypoints.push_back(X_WB.p + w);
+  return waypoints;
+}
+
+std::unique_ptr<stack::NavigationStack> MakeStack(const Scenario& scenario, const RunOptions& options,
+                                                  const stack::Calibration& truth, const worlds::World& world) {
+  const StackMaker maker = options.stack ? options.stack : MakerOf(scenario.config.stack);
+  if (!maker) return nullptr;
+  const base::Transform X_WB = sim::StartPose(world, truth.standing_height);
+  const stack::Mission mission = sim::SurveyMission(
+      world, truth.standing_height, Waypoints(scenario.config.mission, X_WB), scenario.config.knowledge, scenario.seed);
+  const stack::Calibration calibration = sim::Misjudge(truth, scenario.config.knowledge, scenario.seed);
+  try {
+    return maker(calibration, mission, scenario.seed, options.workers);
+  } catch (const base::InputError&) {
+    throw;
+  } catch (const std::exception& e) {
+    throw base::FaultError("stack_exception", e.what());
+  }
+}
+
+sim::SimulationParts MakeParts(const Scenario& scenario, const RunOptions& options) {
+  const ScenarioConfig& config = scenario.config;
+  sim::SimulationParts parts;
+  parts.config = config.simulation;
+  parts.sensors = config.sensors;
+  parts.autopilot_sensors = config.autopilot_sensors;
+  parts.world = MakeWorld(config.world, scenario.seed);
+  parts.vehicle = MakeVehicle(config.vehicle, kVehicle);
+  parts.autopilot = MakeAutopilot(config.autopilot, config.vehicle);
+  parts.vehicle_id = kVehicle;
+  parts.seed = scenario.seed;
+  parts.workers = options.workers;
+  if (config.sensors.stereo) parts.renderer = render::MakeRenderer(options.render, *parts.world, {});
+  return parts;
+}
+
+void Assemble(const Scenario& scenario, const RunOptions& options, sim::SimulationParts& parts, Cast& cast) {
+  for (const CriterionConfig& criterion : scenario.config.criteria) {
+    cast.criteria.push_back(MakeCriterion(criterion));
+    parts.observers.push_back(cast.criteria.back().get());
+  }
+  parts.observers.push_back(&cast.end_of_stack);
+  parts.observers.push_back(&cast.digest);
+  if (cast.folder) {
+    cast.recorder = std::make_unique<sim::Recorder>(scenario.config.recorder, *cast.folder);
+    parts.observers.push_back(cast.recorder.get());
+  }
+  const Stage stage{*parts.world, parts.vehicle->body(), cast.calibration, options.render,
+                    cast.folder ? cast.folder->PathOf("") : std::filesystem::path()};
+  for (const SpectatorMaker& maker : options.spectators) {
+    cast.spectators.push_back(maker(stage));
+    parts.observers.push_back(cast.spectators.back().get());
+  }
+}
+
+/// Steps until an observer ends the run; its reason.
+std::string Fly(sim::Simulation& simulation, const RunOptions& options) {
+  constexpr std::int64_t kProgressPeriod = 100'000'000;
+  for (;;) {
+    if (options.interrupt != nullptr && options.interrupt->load(std::memory_order_relaxed)) throw Interrupted();
+    if (const std::optional<std::string> reason = simulation.Step()) return *reason;
+    if (options.progress && simulation.time().ns % kProgressPeriod == 0) options.progress(simulation.time());
+  }
+}
+
+void Judge(const Cast& cast, Verdict& verdict) {
+  bool passed = true;
+  for (const auto& criterion : cast.criteria) {
+    for (Check& check : criterion->Checks()) {
+      passed = passed && check.passed;
+      verdict.checks.push_back(std::move(check));
+    }
+    criterion->AddMetrics(verdict.metrics);
+  }
+  const bool fault = verdict.outcome == Outcome::kFault;
+  verdict.checks.push_back(AtMost("faults", fault ? 1.0 : 0.0, 0.0, "1"));
+  if (!fault) verdict.outcome = passed ? Outcome::kPass : Outcome::kFail;
+
+  const sim::RunDigest& digest = cast.digest.digest;
+  verdict.digest = digest.Hex();
+  verdict.digests = {{"truth", digest.truth.Hex()},
+                     {"estimates", digest.estimates.Hex()},
+                     {"commands", digest.commands.Hex()},
+                     {"events", digest.events.Hex()},
+                     {"measurements", digest.measurements.Hex()}};
+}
+
+std::string TimingJson(const sim::Simulation* simulation, double wall_s) {
+  nlohmann::ordered_json json;
+  const double simulated_s = simulation != nullptr ? simulation->time().Seconds() : 0.0;
+  json["real_time_factor"] = wall_s > 0.0 ? simulated_s / wall_s : 0.0;
+  json["simulated_s"] = simulated_s;
+  json["wall_s"] = wall_s;
+  json["stages"] = nlohmann::ordered_json::object();
+  json["details"] = nlohmann::ordered_json::object();
+  if (simulation != nullptr) {
+    for (const stack::StageTime& stage : simulation->Timing()) {
+      json["stages"][stage.name] = stage.wall_ms;
+      json["details"][stage.name] = {{"calls", stage.calls}, {"p99_ms", stage.p99_ms}};
+    }
+  }
+  return json.dump(2) + "\n";
+}
+
+void WriteFolder(const Scenario& scenario, const worlds::World& world, const Verdict& verdict,
+                 const std::string& timing, Cast& cast) {
+  const base::Time end =
+      base::Time{} + base::Seconds(verdict.metrics.contains("duration_s") ? verdict.metrics.at("duration_s") : 0.0);
+  cast.recorder->AddEvent(end, "run", "end",
+                          verdict.message.empty() ? verdict.reason : verdict.reason + ": " + verdict.message);
+  cast.recorder->Finish();
+  cast.folder->Write("scenario.yaml", base::DumpConfig(scenario.config));
+  cast.folder->Write("world.json", WorldToJson(world));
+  cast.folder->Write("timing.json", timing);
+  cast.folder->Write("verdict.json", ToJson(verdict));
+  cast.folder->Commit();
+}
+
+}  // namespace
+
+Verdict RunScenario(const Scenario& scenario, const RunOptions& options) {
+  Verdict verdict;
+  verdict.seed = scenario.seed;
+  verdict.scenario = scenario.name;
+  Cast cast;
+  sim::SimulationParts parts = MakeParts(scenario, options);
+  cast.calibration = sim::TrueCalibration(scenario.config.sensors, parts.vehicle->body(), kVehicle);
+  verdict.versions = Versions(parts.renderer ? parts.renderer->Description() : "");
+  verdict.numeric_class = NumericClass(verdict.versions);
+  const std::shared_ptr<const worlds::World> world = parts.world;
+
+  const auto begin = std::chrono::steady_clock::now();  // for timing.json only
+  std::unique_ptr<sim::Simulation> simulation;
+  const auto fault = [&](std::string reason, std::string message) {
+    verdict.outcome = Outcome::kFault;
+    verdict.reason = std::move(reason);
+    verdict.message = std::move(message);
+  };
+  if (options.out) cast.folder = std::make_unique<sim::RunFolder>(*options.out);
+  Assemble(scenario, options, parts, cast);
+  try {
+    parts.stack = MakeStack(scenario, options, cast.calibration, *world);
+    simulation = std::make_unique<sim::Simulation>(std::move(parts));
+    verdict.outcome = Outcome::kFail;
+    verdict.reason = Fly(*simulation, options);
+  } catch (const base::InputError&) {
+    throw;
+  } catch (const Interrupted&) {
+    throw;
+  } catch (const base::FaultError& e) {
+    fault(e.reason(), e.what());
+  } catch (const std::exception& e) {
+    fault("exception", e.what());
+  }
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  for (const auto& spectator : cast.spectators) spectator->Finish();
+  Judge(cast, verdict);
+  if (cast.folder) WriteFolder(scenario, *world, verdict, TimingJson(simulation.get(), wall.count()), cast);
+  return verdict;
+}
+
+sim::SimulationParts BuildParts(const Scenario& scenario, const RunOptions& options) {
+  sim::SimulationParts parts = MakeParts(scenario, options);
+  parts.stack = MakeStack(scenario, options,
+                          sim::TrueCalibration(scenario.config.sensors, parts.vehicle->body(), kVehicle), *parts.world);
+  return parts;
+}
+
+void TryToBuild(const Scenario& scenario) {
+  const auto world = MakeWorld(scenario.config.world, scenario.seed);
+  const auto vehicle = MakeVehicle(scenario.config.vehicle, kVehicle);
+  MakeAutopilot(scenario.config.autopilot, scenario.config.vehicle);
+  MakeStack(scenario, {}, sim::TrueCalibration(scenario.config.sensors, vehicle->body(), kVehicle), *world);
+}
+
+std::optional<base::Duration> LimitOf(const ScenarioConfig& config) {
+  for (const CriterionConfig& criterion : config.criteria) {
+    if (const auto* limit = std::get_if<TimeLimitConfig>(&criterion)) return limit->limit;
+  }
+  return std::nullopt;
+}
+
+}  // namespace alula::scenarios

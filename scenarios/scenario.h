@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "base/config.h"
+#include "base/describe.h"
+#include "scenarios/criteria/ate.h"
+#include "scenarios/criteria/clearance.h"
+#include "scenarios/criteria/contacts.h"
+#include "scenarios/criteria/gates.h"
+#include "scenarios/criteria/hover_error.h"
+#include "scenarios/criteria/landed.h"
+#include "scenarios/criteria/mean_speed.h"
+#include "scenarios/criteria/target_reached.h"
+#include "scenarios/criteria/time_limit.h"
+#include "sim/knowledge.h"
+#include "sim/recorder.h"
+#include "sim/simulation.h"
+#include "stack/pilot/position_relay_stack.h"
+#include "vehicles/multicopter_autopilot.h"
+#include "vehicles/prescribed.h"
+#include "vehicles/quadrotor.h"
+#include "worlds/courtyard.h"
+#include "worlds/open_ground.h"
+
+namespace alula::scenarios {
+
+/// Nothing of its kind: no autopilot, no stack.
+struct None {};
+inline void Describe(base::Description&, None&) {}
+
+// What a scenario can be made of. These lists, the words for them in scenario.cpp and the makers in factories.cpp are
+// the one place that names concrete worlds, vehicles, autopilots, stacks and criteria.
+using WorldConfig = std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig>;
+using VehicleConfig = std::variant<vehicles::QuadrotorConfig, vehicles::PrescribedConfig>;
+using AutopilotConfig = std::variant<None, vehicles::MulticopterAutopilotConfig>;
+using StackConfig = std::variant<None, stack::pilot::PositionRelayConfig>;
+using CriterionConfig = std::variant<TimeLimitConfig, ContactsConfig, ClearanceConfig, GatesConfig, TargetReachedConfig,
+                                     MeanSpeedConfig, AteConfig, LandedConfig, HoverErrorConfig>;
+
+/// What is asked of the stack besides what the world says (gates, target).
+struct MissionConfig {
+  std::vector<base::Vec3> waypoints;  // of the body origin, from where it stood at the start, world axes, m
+};
+void Describe(base::Description& d, MissionConfig& c);
+
+/// One scenario: everything that a run depends on but its seed.
+struct ScenarioConfig {
+  std::string meaning;     // one sentence for `alula list`
+  std::uint64_t seed = 1;  // unless the command line names one
+  WorldConfig world;
+  VehicleConfig vehicle;
+  AutopilotConfig autopilot;
+  sim::AutopilotSensorsConfig autopilot_sensors;
+  sim::SensorsConfig sensors;
+  sim::KnowledgeErrors knowledge;
+  MissionConfig mission;
+  StackConfig stack;
+  sim::SimulationConfig simulation;
+  sim::RecorderConfig recorder;
+  std::vector<CriterionConfig> criteria{TimeLimitConfig{}};
+};
+void Describe(base::Description& d, ScenarioConfig& c);
+
+/// A scenario as read, with the name of its run folder.
+struct Scenario {
+  std::string name;
+  std::uint64_t seed = 1;
+  ScenarioConfig config;
+};
+
+/// The folders in which names are looked up, those of scenarios first.
+std::vector<std::filesystem::path> Catalogs();
+
+/// A name of the catalog or the path of a file. Throws base::InputError with the nearest known name.
+std::filesystem::path FindScenario(std::string_view name_or_path);
+
+/// Reads a scenario, draws its distributions from the seed (the file's own where none is given).
+Scenario LoadScenario(const std::filesystem::path& file, const std::vector<base::Override>& overrides,
+                      std::optional<std::uint64_t> seed);
+
+/// The scenarios of the catalog that are meant to be run (files that begin with '_' are parts), sorted by name.
+std::vector<std::filesystem::path> ListScenarios();
+
+}  // namespace alula::scenarios
