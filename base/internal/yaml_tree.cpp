@@ -1,10 +1,12 @@
 #include "base/internal/yaml_tree.h"
 
+#include <yaml-cpp/eventhandler.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <charconv>
 #include <map>
+#include <sstream>
 #include <utility>
 
 namespace alula::base {
@@ -122,11 +124,11 @@ class Converter {
 
   Node Convert(const YAML::Node& yaml, const SourcePosition& fallback, int depth) {
     constexpr int kDeepest = 64;
-    constexpr int kMostNodes = 1'000'000;
+    constexpr int kMostNodes = 200'000;
     Node node;
     node.where = Where(yaml.Mark(), fallback);
     if (depth > kDeepest) throw InputError(node.where, "", "is nested deeper than 64 levels");
-    if (++count_ > kMostNodes) throw InputError(node.where, "", "has more than a million values");
+    if (++count_ > kMostNodes) throw InputError(node.where, "", "has more than 200000 values");
     if (yaml.IsScalar()) {
       node.kind = Node::Kind::kScalar;
       node.text = yaml.Scalar();
@@ -168,16 +170,39 @@ class Converter {
   int count_ = 0;
 };
 
+/// Follows the parser and builds nothing.
+class Silent : public YAML::EventHandler {
+ public:
+  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t, const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t, YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// YAML::Load drops what follows the first document, and YAML::LoadAll never ends on a text like ",a".
+bool IsOneDocument(const std::string& text) {
+  std::istringstream stream(text);
+  YAML::Parser parser(stream);
+  Silent silent;
+  parser.HandleNextDocument(silent);
+  return !parser;
+}
+
 }  // namespace
 
 Node ParseTree(std::string_view text, const std::string& file_name, bool with_lines) {
   const auto [yaml_text, units] = ListUnitScanner(text).Scan();
   const SourcePosition top{file_name, with_lines ? 1 : 0, with_lines ? 1 : 0};
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml_text);
-    if (documents.size() > 1) throw InputError(top, "", "holds several YAML documents; one is wanted");
-    if (documents.empty()) return NullAt(top);
-    return Converter(file_name, with_lines, units).Convert(documents[0], top, 0);
+    if (!IsOneDocument(yaml_text)) {
+      throw InputError(top, "", "is more than one YAML document, or something stands behind its end; one is wanted");
+    }
+    return Converter(file_name, with_lines, units).Convert(YAML::Load(yaml_text), top, 0);
   } catch (const YAML::Exception& error) {
     SourcePosition where = top;
     if (with_lines && !error.mark.is_null()) where = {file_name, error.mark.line + 1, error.mark.column + 1};

@@ -44,7 +44,7 @@ namespace yaml_internal {
 using Node = YamlDocument::Node;
 
 /// Parses one YAML document. `[1, 2, 3] m` is read as `[1 m, 2 m, 3 m]`. Duplicate keys, several documents and more
-/// than a million nodes are errors. With `with_lines` false, nodes carry the file name only (text of `--set`).
+/// than 200000 nodes are errors. With `with_lines` false, nodes carry the file name only (text of `--set`).
 Node ParseTree(std::string_view text, const std::string& file_name, bool with_lines = true);
 
 /// A node that holds nothing yet.

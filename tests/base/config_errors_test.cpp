@@ -106,7 +106,9 @@ TEST(ConfigErrors, SayWhereWhatAndTheMend) {
       {"mass: 1 kg\n\tname: x", "q.yaml:2:1: is not valid YAML: illegal tab when looking for indentation"},
       {"mass: 1 kg\n? [a, b]\n: 3", "q.yaml:2:3: a key must be a word"},
       {"mass: &a [*a]", "q.yaml:1:7: is nested deeper than 64 levels"},
-      {"a: 1\n---\nb: 2", "q.yaml:1:1: holds several YAML documents; one is wanted"},
+      {"a: 1\n---\nb: 2",
+       "q.yaml:1:1: is more than one YAML document, or something stands behind its end; one is wanted"},
+      {",a: 1", "q.yaml:1:1: is more than one YAML document, or something stands behind its end; one is wanted"},
       {"3", "q.yaml:1:1: is `3`; a map of keys is wanted"},
       {"completely_different: 1",
        "q.yaml:1:1: completely_different: unknown key; known keys: name, mass, noise, field_of_view, ratio, reach, "
