@@ -60,7 +60,7 @@ std::array<int, 3> GridShape::CellOf(const base::Vec3& p_O) const {
 
 CellState ClearanceField::State(const base::Vec3& p_O) const {
   const auto [i, j, k] = shape.CellOf(p_O);
-  return shape.Contains(i, j, k) ? state[shape.Index(i, j, k)] : CellState::kUnknown;
+  return shape.Contains(i, j, k) ? StateOf(shape.Index(i, j, k)) : CellState::kUnknown;
 }
 
 double ClearanceField::Clearance(const base::Vec3& p_O) const {

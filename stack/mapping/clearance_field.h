@@ -29,7 +29,8 @@ struct GridShape {
   base::Vec3 high_O() const { return low_O + cell * base::Vec3(size[0], size[1], size[2]); }
 };
 
-/// An immutable picture of the map for planners: the state of each cell and two truncated Euclidean distance fields.
+/// An immutable picture of the map for planners: two truncated Euclidean distance fields, which also tell each cell's
+/// state (an occupied cell is at distance 0 from occupied ones, one that is not free at 0 from those that are not).
 /// Distances are from a point to the nearest surface (cell face), never more than about 6 mm too long at cell centres
 /// and interpolated between them, cut at `max_clearance`. All queries O(1), safe from any thread.
 class ClearanceField {
@@ -37,11 +38,14 @@ class ClearanceField {
   GridShape shape;
   double max_clearance = 1.5;             // m
   std::uint64_t revision = 0;             // of the map it was taken from
-  std::vector<CellState> state;           // shape.count()
   std::vector<std::uint8_t> to_occupied;  // distance / step(), rounded down
   std::vector<std::uint8_t> to_not_free;  // the same to cells that are occupied or unknown
 
   double step() const { return max_clearance / 255.0; }
+  CellState StateOf(std::size_t index) const {
+    if (to_occupied[index] == 0) return CellState::kOccupied;
+    return to_not_free[index] > 0 ? CellState::kFree : CellState::kUnknown;
+  }
   /// Outside the grid: kUnknown.
   CellState State(const base::Vec3& p_O) const;
   /// Distance to the nearest occupied cell, m, in [0, max_clearance]. Outside the grid: of the nearest point inside.

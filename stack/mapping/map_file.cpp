@@ -14,7 +14,7 @@ void WriteOctoMap(const ClearanceField& field, std::ostream& out) {
   for (int i = 0; i < shape.size[0]; ++i) {
     for (int j = 0; j < shape.size[1]; ++j) {
       for (int k = 0; k < shape.size[2]; ++k) {
-        const CellState state = field.state[shape.Index(i, j, k)];
+        const CellState state = field.StateOf(shape.Index(i, j, k));
         if (state == CellState::kUnknown) continue;
         const base::Vec3 p_O = shape.Centre(i, j, k);
         const float log_odds =

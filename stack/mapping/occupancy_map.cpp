@@ -69,7 +69,7 @@ struct OccupancyMap::Impl {
       : config(c), log_odds(shape.count(), kUnseen), evidence(shape), transform(shape, c.max_clearance) {
     field.shape = shape;
     field.max_clearance = c.max_clearance;
-    field.state.assign(shape.count(), CellState::kUnknown);
+    state.assign(shape.count(), CellState::kUnknown);
     field.to_occupied.assign(shape.count(), 255);
     field.to_not_free.assign(shape.count(), 0);
     occupied_from = Stored(c.occupied_from);
@@ -83,6 +83,7 @@ struct OccupancyMap::Impl {
 
   OccupancyMapConfig config;
   std::vector<std::int16_t> log_odds;  // kUnit
+  std::vector<CellState> state;
   internal::FrameEvidence evidence;
   internal::DistanceTransform transform;
   ClearanceField field;
@@ -110,26 +111,26 @@ void OccupancyMap::Impl::Lower(std::size_t cell, double by, double limit) {
 
 void OccupancyMap::Impl::Classify(std::size_t cell) {
   const std::int16_t value = log_odds[cell];
-  CellState state = CellState::kUnknown;
-  if (value != kUnseen && value >= occupied_from) state = CellState::kOccupied;
-  if (value != kUnseen && value <= free_below) state = CellState::kFree;
-  const CellState before = field.state[cell];
-  if (state == before) return;
-  field.state[cell] = state;
+  CellState now = CellState::kUnknown;
+  if (value != kUnseen && value >= occupied_from) now = CellState::kOccupied;
+  if (value != kUnseen && value <= free_below) now = CellState::kFree;
+  const CellState before = state[cell];
+  if (now == before) return;
+  state[cell] = now;
   const auto& size = field.shape.size;
   const int k = static_cast<int>(cell % size[2]);
   const int j = static_cast<int>(cell / size[2] % size[1]);
   const int i = static_cast<int>(cell / size[2] / size[1]);
-  if ((state == CellState::kOccupied) != (before == CellState::kOccupied)) occupied_changed.Add(i, j, k);
-  if ((state == CellState::kFree) != (before == CellState::kFree)) free_changed.Add(i, j, k);
+  if ((now == CellState::kOccupied) != (before == CellState::kOccupied)) occupied_changed.Add(i, j, k);
+  if ((now == CellState::kFree) != (before == CellState::kFree)) free_changed.Add(i, j, k);
 }
 
 void OccupancyMap::Impl::UpdateDistances() {
   ++field.revision;
   transform.Update(
-      field.state, occupied_changed, [](CellState s) { return s == CellState::kOccupied; }, field.to_occupied);
+      state, occupied_changed, [](CellState s) { return s == CellState::kOccupied; }, field.to_occupied);
   transform.Update(
-      field.state, free_changed, [](CellState s) { return s != CellState::kFree; }, field.to_not_free);
+      state, free_changed, [](CellState s) { return s != CellState::kFree; }, field.to_not_free);
   occupied_changed = {};
   free_changed = {};
   snapshot.reset();
@@ -163,7 +164,7 @@ void OccupancyMap::DeclareFree(const base::Vec3& base_O, double radius, double h
       for (int k = 0; k < shape.size[2]; ++k) {
         const double z = shape.Centre(i, j, k).z();
         const std::size_t cell = shape.Index(i, j, k);
-        if (z < base_O.z() || z > base_O.z() + height || impl_->field.state[cell] == CellState::kOccupied) continue;
+        if (z < base_O.z() || z > base_O.z() + height || impl_->state[cell] == CellState::kOccupied) continue;
         impl_->Lower(cell, kCertain, impl_->config.min_log_odds);
       }
     }
@@ -183,7 +184,7 @@ void OccupancyMap::DeclareFreeBox(const base::Transform& X_OG, const base::Vec3&
         const base::Vec3 p_G = X_GO * shape.Centre(i, j, k);
         const std::size_t cell = shape.Index(i, j, k);
         if ((p_G.cwiseAbs().array() > half_extents.array()).any()) continue;
-        if (impl_->field.state[cell] == CellState::kUnknown) impl_->Lower(cell, kCertain, impl_->config.free_below);
+        if (impl_->state[cell] == CellState::kUnknown) impl_->Lower(cell, kCertain, impl_->config.free_below);
       }
     }
   }
@@ -213,7 +214,7 @@ std::vector<Eigen::Vector3f> OccupancyMap::OccupiedCells() const {
   for (int i = 0; i < grid.size[0]; ++i) {
     for (int j = 0; j < grid.size[1]; ++j) {
       for (int k = 0; k < grid.size[2]; ++k, ++at) {
-        if (impl_->field.state[at] == CellState::kOccupied) cells.push_back(grid.Centre(i, j, k).cast<float>());
+        if (impl_->state[at] == CellState::kOccupied) cells.push_back(grid.Centre(i, j, k).cast<float>());
       }
     }
   }

@@ -149,18 +149,18 @@ bool GateFinder::Impl::Near(const GatePose& pose, const GatePose& hint) const {
 
 void GateFinder::Impl::Fit(Gate& gate, const GatePose& hint) const {
   const GateFit fit(config, gate.hint.opening);
-  std::vector<GatePose> starts;
-  if (gate.pose) starts.push_back(*gate.pose);
+  std::vector<std::pair<GatePose, bool>> starts;  // and whether tracked
+  if (gate.pose) starts.emplace_back(*gate.pose, true);
   const double evidence = Evidence(gate.views);
   if (!gate.best || evidence > kSearchAgain * gate.searched_at) {
     const std::size_t first = gate.views.size() > kSearchViews ? gate.views.size() - kSearchViews : 0;
     const std::vector<GateView> latest(gate.views.begin() + static_cast<std::ptrdiff_t>(first), gate.views.end());
-    for (const GatePose& pose : fit.Search(latest, hint)) starts.push_back(pose);
+    for (const GatePose& pose : fit.Search(latest, hint)) starts.emplace_back(pose, false);
     gate.searched_at = evidence;
   }
   std::optional<GateFit::Result> best;
-  for (const GatePose& start : starts) {
-    const GateFit::Result result = fit.Refine(gate.views, start, hint);
+  for (const auto& [start, tracked] : starts) {
+    const GateFit::Result result = fit.Refine(gate.views, start, hint, tracked);
     if (!Near(result.pose, hint)) continue;
     if (!best || result.quality.score > best->quality.score) best = result;
   }

@@ -37,9 +37,9 @@ struct GateFinderConfig {
   double min_bar_support = 0.4;  // mean evidence in (−1 … 1) that a bar needs to count as seen
   double min_opening = 0.35;     // mean evidence that the opening needs to be something one sees through
   double min_coverage = 0.35;    // share of a bar's length that must have been looked at
-  int max_views = 14;            // depth maps kept for each gate; the oldest goes first
+  int max_views = 12;            // depth maps kept for each gate; the oldest goes first
   double view_spacing = 0.12;    // m of travel (or 0.1 rad of turn) between kept views
-  int max_samples = 2500;        // pixels kept of one view
+  int max_samples = 2000;        // pixels kept of one view
 };
 void Describe(base::Description& d, GateFinderConfig& c);
 

@@ -14,6 +14,7 @@ constexpr double kHintNormalSigma = 0.4;    // m, of the survey and the map fram
 constexpr double kHintYawSigma = 0.15;      // rad
 constexpr int kSegments = 8;                // a bar's length is judged in so many pieces
 constexpr int kRounds = 7;                  // of refinement; steps in the plane shrink from 8 cm to 1 cm
+constexpr int kTrackedRounds = 3;           // … from 3 cm
 
 /// Distance outside the opening (Chebyshev), m; negative inside.
 float Outside(float y, float z, float half) { return std::max(std::abs(y), std::abs(z)) - half; }
@@ -144,15 +145,16 @@ GateFit::PlaneStep GateFit::AdjustPlane(const std::vector<Crossing>& crossings, 
   return step;
 }
 
-GateFit::Result GateFit::Refine(const std::vector<GateView>& views, const GatePose& start, const GatePose& hint) const {
+GateFit::Result GateFit::Refine(const std::vector<GateView>& views, const GatePose& start, const GatePose& hint,
+                                bool tracked) const {
   constexpr double kMargin = 0.45;  // m outside the opening
   Result result;
   result.pose = start;
   std::vector<Crossing> crossings;
   PlaneStep plane;
-  double step = 0.08;
-  for (int round = 0; round < kRounds; ++round) {
-    const double softness = round < 2 ? 0.05 : 0.0;
+  double step = tracked ? 0.03 : 0.08;
+  for (int round = 0; round < (tracked ? kTrackedRounds : kRounds); ++round) {
+    const double softness = !tracked && round < 2 ? 0.05 : 0.0;
     Cross(views, result.pose, kMargin, softness, 1, crossings);
     AdjustInPlane(crossings, step, result.pose);
     Cross(views, result.pose, kMargin, softness, 1, crossings);

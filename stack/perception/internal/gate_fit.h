@@ -73,8 +73,9 @@ class GateFit {
     double yaw_sigma = 0.0;
   };
   /// Alternates between the plane (normal offset and yaw, from depths on the bars) and the place in the plane (from
-  /// what is bar and what is seen through), starting at `start`.
-  Result Refine(const std::vector<GateView>& views, const GatePose& start, const GatePose& hint) const;
+  /// what is bar and what is seen through), starting at `start`; `tracked`: that start is a former result, so that a
+  /// few small steps suffice.
+  Result Refine(const std::vector<GateView>& views, const GatePose& start, const GatePose& hint, bool tracked) const;
 
   /// The samples of the views whose rays pass the pose's slab within `margin` (m) of the opening.
   /// `extra_sigma` (m) softens the evidence for coarse poses; only every `stride`-th sample is taken.

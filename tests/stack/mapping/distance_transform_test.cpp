@@ -64,17 +64,17 @@ TEST(ClearanceField, InterpolatesTheDistanceToAWall) {
   field.shape.cell = 0.1;
   field.shape.size = {20, 20, 20};
   field.max_clearance = 1.5;
-  field.state.assign(field.shape.count(), CellState::kFree);
+  std::vector<CellState> state(field.shape.count(), CellState::kFree);
   field.to_occupied.assign(field.shape.count(), 255);
   field.to_not_free.assign(field.shape.count(), 255);
   CellBox box;
   for (int j = 0; j < 20; ++j) {
     for (int k = 0; k < 20; ++k) {
-      field.state[field.shape.Index(0, j, k)] = CellState::kOccupied;
+      state[field.shape.Index(0, j, k)] = CellState::kOccupied;
       box.Add(0, j, k);
     }
   }
-  DistanceTransform(field.shape, 1.5).Update(field.state, box, Occupied, field.to_occupied);
+  DistanceTransform(field.shape, 1.5).Update(state, box, Occupied, field.to_occupied);
   for (double x = 0.16; x < 1.5; x += 0.0137) {  // the wall's face stands at x = 0.1
     EXPECT_NEAR(field.Clearance({x, 1.03, 0.87}), x - 0.1, field.step() + 1e-9) << x;
     EXPECT_NEAR(field.ClearanceGradient({x, 1.03, 0.87}).x(), x > 0.2 ? 1.0 : 0.75, 0.26) << x;

@@ -113,7 +113,7 @@ TEST(OccupancyMap, DistancesAreThoseOfItsCells) {
         for (int c = std::max(0, k - 16); c < std::min(shape.size[2], k + 17); ++c) {
           const base::Vec3 gap =
               (base::Vec3(std::abs(a - i), std::abs(b - j), std::abs(c - k)) - base::Vec3::Constant(0.5)).cwiseMax(0.0);
-          const CellState state = snapshot->state[shape.Index(a, b, c)];
+          const CellState state = snapshot->StateOf(shape.Index(a, b, c));
           if (state != CellState::kFree) to_not_free = std::min(to_not_free, 0.1 * gap.norm());
           if (state == CellState::kOccupied) to_occupied = std::min(to_occupied, 0.1 * gap.norm());
         }
@@ -148,7 +148,7 @@ TEST(OccupancyMap, SnapshotsStayAsTheyWereAndMapsAreEqualToTheBit) {
   one.Insert(depth, X_OC);
   two.Insert(depth, X_OC);
   EXPECT_EQ(before->State({7.0, 0, 1.2}), CellState::kUnknown);
-  EXPECT_EQ(one.Snapshot()->state, two.Snapshot()->state);
+  EXPECT_EQ(one.Snapshot()->to_occupied, two.Snapshot()->to_occupied);
   EXPECT_EQ(one.Snapshot()->to_not_free, two.Snapshot()->to_not_free);
   EXPECT_EQ(one.Snapshot(), one.Snapshot());
   EXPECT_GT(one.revision(), before->revision);

@@ -85,7 +85,7 @@ TEST(GateFinder, ApproachesConvergeToTheTrueGate) {
   std::map<int, int> seen_at;
   std::vector<double> in_plane_ratio;
   std::vector<double> yaw_ratio;
-  const int runs = 24;
+  const int runs = 16;
   for (int run = 0; run < runs; ++run) {
     base::RandomStream random(1000 + run, "test/gates");
     const Course course = DrawCourse(random, run % 2 == 0);
