@@ -165,8 +165,10 @@ LinearPrior Marginalise(const NormalEquations& system, int leading) {
   const Eigen::LDLT<MatrixXd> root(0.5 * (S + S.transpose()));
   const VectorXd D = root.vectorD();
   const double least = 1e-14 * D.maxCoeff();
-  MatrixXd J = root.matrixU();
-  J = J * root.transpositionsP();
+  // Transpositions are applied from the left alone: from the right Eigen 3.4 applies them in the wrong order.
+  MatrixXd P = MatrixXd::Identity(kept, kept);
+  P = root.transpositionsP() * P;
+  MatrixXd J = root.matrixU() * P;
   VectorXd Ps = root.transpositionsP() * s;
   root.matrixL().solveInPlace(Ps);
   LinearPrior prior;

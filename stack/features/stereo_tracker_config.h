@@ -8,8 +8,8 @@ namespace alula::stack::features {
 struct StereoTrackerConfig {
   int cell = 40;                    // px: side of a grid cell, one corner each; 40 gives 192 cells at 640×480
   int max_tracks = 180;             // more cost time and bring little
-  int fast_threshold = 8;           // grey levels; below the noise everything is a corner
-  double min_corner_score = 60.0;   // smaller eigenvalue of the mean gradient matrix, (grey level/px)²
+  int fast_threshold = 5;           // grey levels; a dim wall has no more, pixel noise is about 1
+  double min_corner_score = 4.0;    // smaller eigenvalue of the mean gradient matrix, (grey level/px)²; noise has 0.2
   int window = 15;                  // px: side of the KLT patch
   int levels = 3;                   // pyramid levels above the image
   int iterations = 12;              // of KLT a level
