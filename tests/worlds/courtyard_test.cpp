@@ -1,0 +1,278 @@
+#include "worlds/courtyard.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <queue>
+#include <set>
+#include <vector>
+
+#include "base/error.h"
+#include "worlds/world_hash.h"
+
+namespace alula::worlds {
+namespace {
+
+using base::Vec2;
+using base::Vec3;
+
+CourtyardConfig Small() {  // the textures' size changes nothing else
+  CourtyardConfig config;
+  config.texture_size = 32;
+  return config;
+}
+
+/// The corners and edge points of an object's triangles in the world, dense enough (0.1 m) to stand for its surface.
+std::vector<Vec3> SurfacePoints(const Object& object) {
+  std::vector<Vec3> points;
+  const geometry::Mesh mesh = geometry::Tessellate(object.shape, 1.0, 16);
+  for (const auto& t : mesh.triangles) {
+    const Vec3 a = object.X_WO * Vec3(mesh.vertices[t[0]].position.cast<double>());
+    const Vec3 b = object.X_WO * Vec3(mesh.vertices[t[1]].position.cast<double>());
+    const Vec3 c = object.X_WO * Vec3(mesh.vertices[t[2]].position.cast<double>());
+    const int n = static_cast<int>(std::ceil(std::max({(b - a).norm(), (c - a).norm(), (c - b).norm()}) / 0.1));
+    for (int i = 0; i <= n; ++i) {
+      for (int j = 0; i + j <= n; ++j) points.push_back(a + (b - a) * i / n + (c - a) * j / n);
+    }
+  }
+  return points;
+}
+
+bool StartsWith(const std::string& text, const std::string& head) { return text.rfind(head, 0) == 0; }
+bool IsSurround(const Object& o) { return StartsWith(o.name, "ground") || StartsWith(o.name, "wall"); }
+
+double DistanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const double t = std::clamp((p - a).dot(b - a) / (b - a).squaredNorm(), 0.0, 1.0);
+  return (p - a - t * (b - a)).norm();
+}
+
+void CheckGateRoom(const World& world, std::size_t index, const Object& object, const std::vector<Vec3>& points) {
+  const Gate& gate = world.gates[index];
+  const bool own = StartsWith(object.name, gate.name + "/");
+  const Vec3 before = gate.X_WG * Vec3(-2.0, 0.0, 0.0);
+  const Vec3 after = gate.X_WG * Vec3(2.0, 0.0, 0.0);
+  const base::Transform X_GW = gate.X_WG.Inverse();
+  for (const Vec3& p : points) {
+    if (own) {  // bars stay outside the opening's prism
+      const Vec3 p_G = X_GW * p;
+      EXPECT_GE(std::max(std::abs(p_G.y()), std::abs(p_G.z())), 0.5 * gate.opening - 1e-6) << object.name;
+    } else {
+      EXPECT_GE(DistanceToSegment(p, before, after), 0.9) << object.name << " at " << gate.name;
+    }
+  }
+}
+
+TEST(Courtyard, RoomThatMustBeFreeIsFree) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    SCOPED_TRACE(seed);
+    const World world = MakeCourtyard(Small(), seed);
+    ASSERT_EQ(world.gates.size(), 5U);
+    const Vec2 pad = world.X_WB_start.p.head<2>();
+    for (const Object& object : world.objects) {
+      if (StartsWith(object.name, "ground")) continue;
+      const std::vector<Vec3> points = SurfacePoints(object);
+      for (std::size_t i = 0; i < world.gates.size(); ++i) CheckGateRoom(world, i, object, points);
+      for (const Vec3& p : points) {
+        if (object.name != world.pad_object) {
+          ASSERT_GE((p.head<2>() - pad).norm(), 1.2) << object.name;
+        }
+        ASSERT_GE((p - world.target).norm(), 1.0) << object.name;
+        ASSERT_GE(p.z(), -1e-6) << object.name;
+        if (!IsSurround(object)) {
+          ASSERT_LE(std::abs(p.x()), 15.0 + 1e-6) << object.name;
+          ASSERT_LE(std::abs(p.y()), 10.0 + 1e-6) << object.name;
+        }
+      }
+    }
+  }
+}
+
+/// A grid of the courtyard seen from above; a cell is blocked where anything lower than 3.5 m is nearer than
+/// `clearance`.
+class Grid {
+ public:
+  static constexpr double kCell = 0.2;
+  static constexpr int kNx = 150;
+  static constexpr int kNy = 100;
+
+  Grid(const World& world, double clearance) : blocked_(kNx * kNy, false) {
+    const int reach = static_cast<int>(std::ceil(clearance / kCell)) + 1;
+    for (const Object& object : world.objects) {
+      if (StartsWith(object.name, "ground") || object.name == world.pad_object) continue;
+      for (const Vec3& p : SurfacePoints(object)) {
+        const Vec2 q = p.head<2>();
+        const int cx = Column(q.x(), 15.0);
+        const int cy = Column(q.y(), 10.0);
+        for (int y = std::max(0, cy - reach); y <= std::min(kNy - 1, cy + reach); ++y) {
+          for (int x = std::max(0, cx - reach); x <= std::min(kNx - 1, cx + reach); ++x) {
+            if ((Centre(x, y) - q).norm() < clearance) blocked_[Index(x, y)] = true;
+          }
+        }
+      }
+    }
+  }
+
+  /// Steps of the shortest 4-connected way in metres, or infinity.
+  double Way(const Vec2& from, const Vec2& to) const {
+    std::vector<int> steps(kNx * kNy, -1);
+    const int goal = Index(Column(to.x(), 15.0), Column(to.y(), 10.0));
+    std::queue<int> open;
+    open.push(Index(Column(from.x(), 15.0), Column(from.y(), 10.0)));
+    steps[open.front()] = 0;
+    while (!open.empty()) {
+      const int at = open.front();
+      open.pop();
+      if (at == goal) return steps[at] * kCell;
+      const int x = at % kNx;
+      const int y = at / kNx;
+      for (const auto& [dx, dy] : {std::pair{1, 0}, {-1, 0}, {0, 1}, {0, -1}}) {
+        if (x + dx < 0 || x + dx >= kNx || y + dy < 0 || y + dy >= kNy) continue;
+        const int next = Index(x + dx, y + dy);
+        if (blocked_[next] || steps[next] >= 0) continue;
+        steps[next] = steps[at] + 1;
+        open.push(next);
+      }
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+
+ private:
+  static int Column(double v, double half) { return static_cast<int>(std::floor((v + half) / kCell)); }
+  static Vec2 Centre(int x, int y) { return {-15.0 + (x + 0.5) * kCell, -10.0 + (y + 0.5) * kCell}; }
+  static int Index(int x, int y) { return y * kNx + x; }
+
+  std::vector<bool> blocked_;
+};
+
+/// Between any two stations there is a way with 0.6 m on both sides of its middle, without flying over anything.
+TEST(Courtyard, EveryLegCanBeFlownWithRoomOnBothSides) {
+  int straight = 0;
+  int legs = 0;
+  for (std::uint64_t seed = 1; seed <= 200; seed += 2) {
+    SCOPED_TRACE(seed);
+    const World world = MakeCourtyard(Small(), seed);
+    const Grid grid(world, 0.6);
+    Vec2 at = world.X_WB_start.p.head<2>();
+    for (std::size_t i = 0; i <= world.gates.size(); ++i) {
+      const bool last = i == world.gates.size();
+      const Vec3 goal = last ? world.target : world.gates[i].X_WG * Vec3(-1.5, 0.0, 0.0);
+      const double way = grid.Way(at, goal.head<2>());
+      const double manhattan = (goal.head<2>() - at).lpNorm<1>();
+      EXPECT_LE(way, manhattan + 6.0) << "to station " << i;  // a detour, not a journey
+      straight += way <= manhattan + 0.5 ? 1 : 0;
+      ++legs;
+      if (!last) at = (world.gates[i].X_WG * Vec3(1.5, 0.0, 0.0)).head<2>();
+    }
+  }
+  EXPECT_LT(straight, legs);
+}
+
+/// Some straight lines between gates are blocked for a hull of 0.3 m radius, and some are not.
+TEST(Courtyard, StraightLinesBetweenGatesAreSometimesBlocked) {
+  int blocked = 0;
+  int legs = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const World world = MakeCourtyard(Small(), seed);
+    for (std::size_t i = 0; i + 1 < world.gates.size(); ++i) {
+      const Vec3 a = world.gates[i].X_WG * Vec3(1.0, 0.0, 0.0);
+      const Vec3 b = world.gates[i + 1].X_WG * Vec3(-1.0, 0.0, 0.0);
+      bool hit = false;
+      for (const Object& object : world.objects) {
+        if (IsSurround(object) || object.name == world.pad_object) continue;
+        for (const Vec3& p : SurfacePoints(object)) hit = hit || DistanceToSegment(p, a, b) < 0.3;
+      }
+      blocked += hit ? 1 : 0;
+      ++legs;
+    }
+  }
+  EXPECT_GT(blocked, legs / 10);
+  EXPECT_LT(blocked, legs / 2);
+  RecordProperty("blocked_percent", 100 * blocked / legs);
+}
+
+TEST(Courtyard, HasFewTriangles) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    std::size_t triangles = 0;
+    for (const Object& object : MakeCourtyard(Small(), seed).objects) {
+      triangles += geometry::Tessellate(object.shape, object.texture_scale).triangles.size();
+    }
+    EXPECT_LE(triangles, 30'000U) << seed;
+  }
+}
+
+TEST(Courtyard, NamesAndMaterialsAreSound) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const World world = MakeCourtyard(Small(), seed);
+    std::set<std::string> names;
+    for (const Object& object : world.objects) {
+      EXPECT_TRUE(names.insert(object.name).second) << object.name;
+      ASSERT_GE(object.material, 0);
+      ASSERT_LT(static_cast<std::size_t>(object.material), world.materials.size());
+    }
+    EXPECT_TRUE(names.count("gate0/left") == 1 && names.count("gate4/bottom") == 1);
+    EXPECT_TRUE(names.count("prop") == 1 && names.count(world.pad_object) == 1);
+  }
+}
+
+TEST(Courtyard, StartLooksTowardTheFirstGate) {
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const World world = MakeCourtyard(Small(), seed);
+    const Vec3 d = world.gates.front().X_WG.p - world.X_WB_start.p;
+    EXPECT_LE(std::abs(base::WrapAngle(std::atan2(d.y(), d.x()) - base::Yaw(world.X_WB_start.q))), 30.0 / 57.2957795);
+    EXPECT_LE((world.target - world.X_WB_start.p).head<2>().norm(), 4.2);
+  }
+}
+
+TEST(Courtyard, WindAndSunStayInTheirRanges) {
+  double strongest = 0.0;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const World world = MakeCourtyard(Small(), seed);
+    strongest = std::max(strongest, world.wind.mean_W.norm());
+    EXPECT_LE(world.wind.mean_W.norm(), 3.0);
+    EXPECT_LE(world.wind.gust_sigma, 0.3 * world.wind.mean_W.norm() + 1e-12);
+    EXPECT_NEAR(world.light.to_sun_W.norm(), 1.0, 1e-12);
+    EXPECT_GT(world.light.to_sun_W.z(), 0.4);
+  }
+  EXPECT_GT(strongest, 2.5);
+}
+
+std::uint64_t Digest(const World& world) {
+  base::RollingHash hash;
+  AddTo(hash, world);
+  return hash.value();
+}
+
+TEST(Courtyard, SameSeedSameWorldAndEverySeedAnotherOne) {
+  std::set<std::uint64_t> digests;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const std::uint64_t digest = Digest(MakeCourtyard(Small(), seed));
+    EXPECT_TRUE(digests.insert(digest).second) << seed;
+    if (seed % 20 == 0) {
+      EXPECT_EQ(digest, Digest(MakeCourtyard(Small(), seed))) << seed;
+    }
+  }
+}
+
+TEST(Courtyard, TextureSizeChangesNothingElse) {
+  World small = MakeCourtyard(Small(), 5);
+  World large = MakeCourtyard(CourtyardConfig{}, 5);
+  for (World* world : {&small, &large}) {
+    for (auto& material : world->materials) material.texture.reset();
+  }
+  EXPECT_EQ(Digest(small), Digest(large));
+}
+
+TEST(Courtyard, AMissingPropIsNamed) {
+  CourtyardConfig config = Small();
+  config.prop = "nothing.obj";
+  try {
+    MakeCourtyard(config, 1);
+    FAIL();
+  } catch (const base::InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("worlds/assets/nothing.obj: there is no such mesh file"),
+              std::string::npos);
+  }
+}
+
+}  // namespace
+}  // namespace alula::worlds

@@ -1,0 +1,64 @@
+#include "worlds/world_hash.h"
+
+namespace alula::worlds {
+namespace {
+
+void Add(base::RollingHash& hash, const Eigen::Vector3f& v) { hash.Add(base::Vec3(v.cast<double>())); }
+
+void Add(base::RollingHash& hash, const geometry::Material& material) {
+  hash.Add(std::string_view(material.name));
+  Add(hash, material.colour);
+  hash.Add(static_cast<std::uint64_t>(material.texture ? material.texture->width : 0));
+  if (material.texture) hash.AddBytes(material.texture->rgb);
+}
+
+void Add(base::RollingHash& hash, const geometry::Box& s) { hash.Add(s.half_extents); }
+void Add(base::RollingHash& hash, const geometry::Sphere& s) { hash.Add(s.radius); }
+template <typename Round>
+void Add(base::RollingHash& hash, const Round& s) {
+  hash.Add(s.radius);
+  hash.Add(s.half_height);
+}
+void Add(base::RollingHash& hash, const geometry::MeshShape& s) {
+  for (const auto& v : s.mesh->vertices) Add(hash, v.position);
+  for (const auto& t : s.mesh->triangles) {
+    for (const std::uint32_t i : t) hash.Add(static_cast<std::uint64_t>(i));
+  }
+}
+
+void Add(base::RollingHash& hash, const Object& object) {
+  hash.Add(std::string_view(object.name));
+  hash.Add(static_cast<std::uint64_t>(object.shape.index()));
+  std::visit([&hash](const auto& solid) { Add(hash, solid); }, object.shape);
+  hash.Add(object.X_WO);
+  hash.Add(static_cast<std::int64_t>(object.material));
+  hash.Add(object.texture_scale);
+  hash.Add(static_cast<std::uint64_t>(object.collides));
+}
+
+}  // namespace
+
+void AddTo(base::RollingHash& hash, const World& world) {
+  hash.Add(std::string_view(world.name));
+  for (const geometry::Material& material : world.materials) Add(hash, material);
+  for (const Object& object : world.objects) Add(hash, object);
+  for (const Gate& gate : world.gates) {
+    hash.Add(std::string_view(gate.name));
+    hash.Add(gate.X_WG);
+    hash.Add(gate.opening);
+    hash.Add(gate.frame);
+  }
+  hash.Add(world.wind.mean_W);
+  hash.Add(world.wind.gust_sigma);
+  hash.Add(world.wind.gust_time);
+  hash.Add(world.light.to_sun_W);
+  hash.Add(static_cast<double>(world.light.sun));
+  hash.Add(static_cast<double>(world.light.ambient));
+  Add(hash, world.light.sky);
+  hash.Add(world.X_WB_start);
+  hash.Add(world.pad_radius);
+  hash.Add(std::string_view(world.pad_object));
+  for (const base::Vec3& v : {world.target, world.bounds_low, world.bounds_high}) hash.Add(v);
+}
+
+}  // namespace alula::worlds
