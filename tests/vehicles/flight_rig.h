@@ -71,8 +71,8 @@ class FlightRig {
   base::Time now;
   RigidBodyRig body;
   AutopilotOutput output;
-  bool vision = true;          // whether estimates are sent
-  base::Transform X_OW;        // the stack's odometry frame, as it is now
+  bool vision = true;    // whether estimates are sent
+  base::Transform X_OW;  // the stack's odometry frame, as it is now
   std::uint32_t reset_counter = 0;
   std::unique_ptr<VehicleModel> vehicle;
   std::unique_ptr<Autopilot> autopilot;
