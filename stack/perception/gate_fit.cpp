@@ -169,8 +169,10 @@ GateFit::Result GateFit::Refine(const std::vector<GateView>& views, const GatePo
   const GateView& last = views.back();
   const double pixel = plane.depth / last.focal;
   const double common = plane.depth * plane.depth * config_.disparity_bias / last.focal_baseline;
+  constexpr double kExtrinsics =
+      0.015;  // m, of the camera in the body and of stereo at edges, measured in rendered courtyards
   constexpr double kDepthOfBars = 0.02;  // m, unknown half depth of the bars
-  result.position_sigma = std::hypot(0.8 * pixel, 0.01) * (result.quality.bars < 4 ? 1.5 : 1.0);
+  result.position_sigma = std::hypot(0.8 * pixel, kExtrinsics) * (result.quality.bars < 4 ? 1.5 : 1.0);
   result.normal_sigma = std::hypot(plane.normal_sigma, std::hypot(common, kDepthOfBars));
   result.yaw_sigma = std::hypot(plane.yaw_sigma, 0.015);
   return result;

@@ -85,14 +85,14 @@ TEST(GateFinder, ApproachesConvergeToTheTrueGate) {
   std::map<int, int> seen_at;
   std::vector<double> in_plane_ratio;
   std::vector<double> yaw_ratio;
-  const int runs = 16;
+  const int runs = 12;
   for (int run = 0; run < runs; ++run) {
     base::RandomStream random(1000 + run, "test/gates");
     const Course course = DrawCourse(random, run % 2 == 0);
     GateFinder finder({course.hint}, {});
     const double sideways = random.Uniform(-2.0, 2.0);
     const double up = std::max(random.Uniform(-0.4, 0.4), 0.6 - course.X_OG.p.z());
-    for (int step = 25; step >= 5; --step) {
+    for (int step = 24; step >= 6; step -= 2) {
       const double distance = 0.2 * step;
       const base::Vec3 look_at = finder.Best(0) ? finder.Best(0)->X_OG.p : course.hint.X_WG.p;
       const base::Transform X_OC = OnApproach(course.X_OG, look_at, distance, sideways, up);

@@ -94,7 +94,7 @@ void Approach(int seed, std::map<int, std::vector<Error>>& errors) {
 }
 
 TEST(RenderedGates, AreMeasuredOnTheApproachWithAMisstatedCalibration) {
-  const int seeds = 8;
+  const int seeds = 6;
   std::map<int, std::vector<Error>> errors;
   for (int seed = 1; seed <= seeds; ++seed) Approach(seed, errors);
   for (const auto& [decimetres, list] : errors) {
