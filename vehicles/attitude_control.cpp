@@ -30,9 +30,9 @@ void Describe(base::Description& d, AttitudeControlConfig& c) {
 
 Quat AttitudeFor(const Vec3& f_O, double yaw) {
   const Vec3 z = f_O.normalized();
-  const Vec3 y = z.cross(Vec3(std::cos(yaw), std::sin(yaw), 0)).normalized();
+  const Vec3 x = Vec3(-std::sin(yaw), std::cos(yaw), 0).cross(z).normalized();  // above or below the heading
   base::Mat3 R;
-  R << y.cross(z), y, z;
+  R << x, z.cross(x), z;
   return Quat(R);
 }
 

@@ -12,8 +12,8 @@ struct FlatAttitude {
 
 /// The body frame whose z axis lies along a + g and whose x axis points along `yaw`, and how it turns, from
 /// acceleration (m/s²), jerk (m/s³), yaw (rad) and yaw rate (rad/s): differential flatness, Mellinger and Kumar 2011,
-/// section III (yaw first, then tilt: x_B is the heading direction projected on the plane normal to z_B).
-/// a + g must not vanish nor lie along the heading.
+/// section III, with the heading of base/frames.h: x_B lies above or below the heading direction. a + g must not be
+/// horizontal.
 FlatAttitude AttitudeFromThrust(const base::Vec3& a_W, const base::Vec3& jerk_W, double yaw, double yaw_rate);
 
 }  // namespace alula::vehicles

@@ -49,16 +49,19 @@ void InertialStretch::Add(const NavigationState& x, const stack::ImuSample& imu,
 ErrorMatrix Transition(const Quat& q_OB_start, const InertialStretch& s) {
   const Mat3 R = q_OB_start.toRotationMatrix(), I = Mat3::Identity();
   const double t = s.duration;
+  // The mean attitude while the accelerometer's bias is summed once and twice: half and a third of the turn.
+  const Vec3 turn = base::Log(s.rotation);
+  const Mat3 R_half = R * Exp(turn / 2).toRotationMatrix(), R_third = R * Exp(turn / 3).toRotationMatrix();
   ErrorMatrix F = ErrorMatrix::Identity();
   F.block<3, 3>(L::kPosition, L::kVelocity) = t * I;
   F.block<3, 3>(L::kPosition, L::kRotation) = -R * Hat(s.displacement);
-  F.block<3, 3>(L::kPosition, L::kAccelerometerBias) = -0.5 * t * t * R;
+  F.block<3, 3>(L::kPosition, L::kAccelerometerBias) = -0.5 * t * t * R_third;
   F.block<3, 3>(L::kPosition, L::kGyroBias) = t / 3 * R * Hat(s.displacement);
   F.block<3, 3>(L::kVelocity, L::kRotation) = -R * Hat(s.velocity);
-  F.block<3, 3>(L::kVelocity, L::kAccelerometerBias) = -t * R;
+  F.block<3, 3>(L::kVelocity, L::kAccelerometerBias) = -t * R_half;
   F.block<3, 3>(L::kVelocity, L::kGyroBias) = t / 2 * R * Hat(s.velocity);
   F.block<3, 3>(L::kRotation, L::kRotation) = s.rotation.conjugate().toRotationMatrix();
-  F.block<3, 3>(L::kRotation, L::kGyroBias) = -t * base::RightJacobian(base::Log(s.rotation));
+  F.block<3, 3>(L::kRotation, L::kGyroBias) = -t * base::RightJacobian(turn);
   return F;
 }
 
