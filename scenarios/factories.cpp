@@ -41,12 +41,20 @@ std::unique_ptr<vehicles::Autopilot> MakeAutopilot(const AutopilotConfig& config
 }
 
 StackMaker MakerOf(const StackConfig& config) {
+  namespace pilot = stack::pilot;
+  using stack::Calibration, stack::Mission;
   return std::visit(Overloaded{
                         [](const None&) -> StackMaker { return {}; },
-                        [](const stack::pilot::PositionRelayConfig& c) -> StackMaker {
-                          return
-                              [c](const stack::Calibration& calibration, const stack::Mission& mission, std::uint64_t,
-                                  int) { return stack::pilot::MakePositionRelayStack(calibration, mission, c); };
+                        [](const pilot::PositionRelayConfig& c) -> StackMaker {
+                          return [c](const Calibration& calibration, const Mission& mission, std::uint64_t, int) {
+                            return pilot::MakePositionRelayStack(calibration, mission, c);
+                          };
+                        },
+                        [](const pilot::VisualInertialConfig& c) -> StackMaker {
+                          return [c](const Calibration& calibration, const Mission& mission, std::uint64_t seed,
+                                     int workers) {
+                            return pilot::MakeVisualInertialStack(calibration, mission, c, seed, workers);
+                          };
                         },
                     },
                     config);
@@ -64,6 +72,7 @@ std::unique_ptr<Criterion> MakeCriterion(const CriterionConfig& config) {
           [](const AteConfig& c) -> std::unique_ptr<Criterion> { return std::make_unique<Ate>(c); },
           [](const LandedConfig& c) -> std::unique_ptr<Criterion> { return std::make_unique<Landed>(c); },
           [](const HoverErrorConfig& c) -> std::unique_ptr<Criterion> { return std::make_unique<HoverError>(c); },
+          [](const BoundsConfig& c) -> std::unique_ptr<Criterion> { return std::make_unique<Bounds>(c); },
       },
       config);
 }

@@ -29,13 +29,14 @@ void Describe(base::Description& d, ScenarioConfig& c) {
   d.Field("sensors", c.sensors, {.meaning = "what the stack is given"});
   d.Field("knowledge", c.knowledge, {.meaning = "how wrong the stack's calibration and mission are"});
   d.Field("mission", c.mission, {.meaning = "what is asked of the stack"});
-  d.OneOf("stack", c.stack, {.meaning = "the software under test", .choices = {"none", "position_relay"}});
+  d.OneOf("stack", c.stack,
+          {.meaning = "the software under test", .choices = {"none", "position_relay", "visual_inertial"}});
   d.Field("simulation", c.simulation, {.meaning = "the loop"});
   d.Field("recorder", c.recorder, {.meaning = "what is written down"});
   d.ListOf("criteria", c.criteria,
            {.meaning = "what the verdict is made of",
             .choices = {"time_limit", "contacts", "clearance", "gates", "target_reached", "mean_speed", "ate", "landed",
-                        "hover_error"}});
+                        "hover_error", "bounds"}});
 }
 
 std::vector<fs::path> Catalogs() {

@@ -10,6 +10,7 @@
 #include "base/config.h"
 #include "base/describe.h"
 #include "scenarios/criteria/ate.h"
+#include "scenarios/criteria/bounds.h"
 #include "scenarios/criteria/clearance.h"
 #include "scenarios/criteria/contacts.h"
 #include "scenarios/criteria/gates.h"
@@ -22,6 +23,7 @@
 #include "sim/recorder.h"
 #include "sim/simulation.h"
 #include "stack/pilot/position_relay_stack.h"
+#include "stack/pilot/visual_inertial_stack.h"
 #include "vehicles/multicopter_autopilot.h"
 #include "vehicles/prescribed.h"
 #include "vehicles/quadrotor.h"
@@ -39,9 +41,9 @@ inline void Describe(base::Description&, None&) {}
 using WorldConfig = std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig>;
 using VehicleConfig = std::variant<vehicles::QuadrotorConfig, vehicles::PrescribedConfig>;
 using AutopilotConfig = std::variant<None, vehicles::MulticopterAutopilotConfig>;
-using StackConfig = std::variant<None, stack::pilot::PositionRelayConfig>;
+using StackConfig = std::variant<None, stack::pilot::PositionRelayConfig, stack::pilot::VisualInertialConfig>;
 using CriterionConfig = std::variant<TimeLimitConfig, ContactsConfig, ClearanceConfig, GatesConfig, TargetReachedConfig,
-                                     MeanSpeedConfig, AteConfig, LandedConfig, HoverErrorConfig>;
+                                     MeanSpeedConfig, AteConfig, LandedConfig, HoverErrorConfig, BoundsConfig>;
 
 /// What is asked of the stack besides what the world says (gates, target).
 struct MissionConfig {
