@@ -16,7 +16,7 @@ uniform mat4x3 shadow_from_world;
 uniform vec3 to_sun;
 uniform vec3 light;  // sun, ambient, offset along the normal for the shadow look-up (m)
 out vec2 uv;
-out vec2 shine;  // of the sun, of the sky
+out vec2 shade;  // in the shadow, in the sun
 out vec3 shadow_at;
 void main() {
   vec3 p = world_from_model * vec4(position, 1.0);
@@ -24,7 +24,11 @@ void main() {
   float facing = dot(n, to_sun);
   uv = uv_in;
   // The sky is brightest above and about the sun; from below comes what the ground sends back.
-  shine = vec2(light.x * max(facing, 0.0), light.y * (0.75 + 0.20 * n.z + 0.10 * facing));
+  float sky = light.y * (0.75 + 0.20 * n.z + 0.10 * facing);
+  float sun = light.x * max(facing, 0.0);
+  // Textures hold displayed values, light is linear: the product in linear space, displayed again with gamma 2, is
+  // texture times root of light. The exposure sets sunlit ground to its texture's own value, shadows to about half.
+  shade = sqrt(max(vec2(0.6 * sky, 0.6 * sky + 1.4 * sun), 0.0));
   shadow_at = shadow_from_world * vec4(p + n * (light.z * sqrt(max(1.0 - facing * facing, 0.0))), 1.0);
   gl_Position = clip_from_world * vec4(p, 1.0);
 }
@@ -33,21 +37,23 @@ void main() {
 /// Grey: the texture holds luma already. Colour: the same with RGB.
 inline constexpr const char* kGreyFragment = R"(#version 330 core
 in vec2 uv;
-in vec2 shine;
+in vec2 shade;
 in vec3 shadow_at;
 uniform sampler2D albedo;
 uniform sampler2DShadow shadow_map;
+const float kSharper = -0.5;  // levels; isotropic mip-maps blur ground that is seen at a low angle
 layout(location = 0) out float value;
-void main() { value = texture(albedo, uv).r * (shine.x * texture(shadow_map, shadow_at) + shine.y); }
+void main() { value = texture(albedo, uv, kSharper).r * mix(shade.x, shade.y, texture(shadow_map, shadow_at)); }
 )";
 inline constexpr const char* kColourFragment = R"(#version 330 core
 in vec2 uv;
-in vec2 shine;
+in vec2 shade;
 in vec3 shadow_at;
 uniform sampler2D albedo;
 uniform sampler2DShadow shadow_map;
+const float kSharper = -0.5;  // levels; isotropic mip-maps blur ground that is seen at a low angle
 layout(location = 0) out vec4 value;
-void main() { value = vec4(texture(albedo, uv).rgb * (shine.x * texture(shadow_map, shadow_at) + shine.y), 1.0); }
+void main() { value = vec4(texture(albedo, uv, kSharper).rgb * mix(shade.x, shade.y, texture(shadow_map, shadow_at)), 1.0); }
 )";
 
 /// Position alone, for the depth pass and the shadow map.
@@ -86,7 +92,7 @@ layout(location = 0) out vec4 value;
 void main() {
   float up = normalize(direction).z;
   float high = clamp(up, 0.0, 1.0);
-  float low = clamp(-8.0 * up, 0.0, 1.0);
+  float low = clamp(-20.0 * up, 0.0, 1.0);
   value = vec4(mix(mix(horizon, zenith, high * (2.0 - high)), ground, low), 1.0);
 }
 )";

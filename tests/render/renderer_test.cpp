@@ -172,7 +172,7 @@ TEST(Renderer, FarTexturesFadeToTheirMeanInsteadOfFlickering) {
   renderer->Grey(LookAt({0, 0, 0}, {1, 0, 0}), picture);
   // A period of 0.5 m at 60 m is 3 px, a field 0.4 px: the mean, 120, under a wall's share of the sky light.
   const auto [low, high] = std::minmax_element(picture.bytes.begin(), picture.bytes.end());
-  EXPECT_LT(*high - *low, 25);
+  EXPECT_LT(*high - *low, 40);  // of 160 near by
 }
 
 TEST(Renderer, LongAndPlainTexturesAreDrawn) {

@@ -31,7 +31,7 @@ inline geometry::Material Checker(int side, std::uint8_t dark, std::uint8_t brig
 inline worlds::Light Shadowless() {
   worlds::Light light;
   light.sun = 0.0F;
-  light.ambient = 1.0F;
+  light.ambient = 1.6F;
   return light;
 }
 
