@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/error.h"
 #include "base/units.h"
@@ -153,7 +154,6 @@ Rate ParseRate(std::string_view text) {
   }
   if (!good) Fail(Quoted(text) + " is not a frequency; write, for example, `30 Hz` or `30000/1001 Hz`");
   const Unit unit = CheckedUnit(rest, rest.substr(0, number_end), Trimmed(rest.substr(number_end)), "Hz");
-  Rate rate;
   // 128 bits: two factors of at most 1e15 each and a unit's scale.
   __extension__ using Wide = unsigned __int128;
   Wide cycles = static_cast<Wide>(above) * static_cast<Wide>(below_scale);
