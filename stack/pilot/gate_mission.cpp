@@ -31,6 +31,9 @@ constexpr double kProgress = 0.7;                             // m of flight aft
 constexpr int kOpenAhead = 2;                                 // gates planned through ahead
 constexpr int kLooks = 6;                                     // in vain, before the list is believed
 constexpr double kBoundsReserve = 0.3;                        // m kept from the mission's bounds
+constexpr int kLeadPoints = 6;                                // of the present trajectory that a new one follows …
+constexpr Duration kLeadStep = base::Milliseconds(50);       // … this far apart
+constexpr double kFlownRadius = 0.12;                       // m about the present trajectory that counts as known-free
 constexpr double kReactionTime = 0.45;                        // s that a new route needs: map's turn and plan
 
 }  // namespace
@@ -386,6 +389,10 @@ class GateMission::Impl {
     request.field = field_;
     request.start_time = now() + plan_latency_ + kTakeover;
     request.start = trajectory_->Sample(request.start_time);
+    for (int i = 1; i <= kLeadPoints; ++i) {
+      request.lead_O.push_back(
+          trajectory_->Sample(request.start_time + base::Seconds(route_.limits.knot_period) + kLeadStep * i).p_O);
+    }
     if (exiting_ >= 0) request.passages.push_back(PassageOf(exiting_));
     int gate = next_gate_;
     for (; gate < book_.size() && gate < next_gate_ + kOpenAhead; ++gate) {
@@ -397,6 +404,9 @@ class GateMission::Impl {
     if (gate >= book_.size()) request.target_O = TargetInO();
     request.free_zones.push_back(
         {takeoff_O_, takeoff_O_ + Vec3(0, 0, config_.takeoff_height), std::max(mission_.takeoff_column_radius, 0.3)});
+    // What is being flown was known to be free when it was planned; cells that flicker since do not matter.
+    const std::vector<Vec3> flown = trajectory_->Points(request.start_time);
+    for (std::size_t i = 1; i < flown.size(); ++i) request.free_zones.push_back({flown[i - 1], flown[i], kFlownRadius});
     const bool relaxed = now() < concessions_until_;
     if (!relaxed) concessions_ = {};
     if (!concessions_.ignore_openings) {

@@ -16,7 +16,7 @@ namespace {
 constexpr double kOnAxis = 0.35;         // m off the axis within which a start counts as in the passage already
 constexpr double kJoinAxis = 0.6;        // m of flight in which such a start comes back to the axis
 constexpr double kStopMargin = 0.08;     // m kept between the stop and the end of known-free space
-constexpr double kOwnSpace = 0.45;       // m about the start that the vehicle itself has proved free
+constexpr double kOwnSpace = 0.1;         // m about the start: where the vehicle is, it is free
 constexpr double kOpeningReserve = 0.1;  // m by which closed openings are larger than they are
 
 Vec3 AxisPoint(const Passage& passage, double x) { return passage.X_OG * Vec3(x, 0, 0); }
@@ -58,8 +58,13 @@ class RouteBuilder {
     band_.push_back({start_O_, true});
     const Vec3 velocity = request_.start.v_O + request_.start.a_O * (0.5 * limits_.knot_period);
     const double speed = velocity.norm();
-    if (speed > 0.25) {
+    if (speed > 0.25 && request_.lead_O.empty()) {
       AppendLine(band_, start_O_ + velocity / speed * (0.2 + 0.1 * speed), 0.5 * config_.point_spacing, true);
+    } else if (speed > 0.25) {
+      for (const Vec3& p : request_.lead_O) {
+        if ((p - band_.back().p_O).norm() < 0.4 * config_.point_spacing || (p - start_O_).dot(velocity) < 0.0) continue;
+        band_.push_back({p, true});
+      }
     }
     start_clearance_ = request_.field->Clearance(start_O_);
   }
@@ -69,6 +74,11 @@ class RouteBuilder {
     const bool inside = cursor_G.x() > -config_.passage_before - 0.3 && cursor_G.x() < config_.passage_after &&
                         cursor_G.tail<2>().norm() < kOnAxis;
     if (passage.closed) return AddClosed(passage, inside);
+    // The lead may end beyond a passage that the vehicle is still in.
+    const Vec3 start_G = passage.X_OG.Inverse() * request_.start.p_O;
+    const bool through = start_G.x() > -config_.passage_before && start_G.tail<2>().norm() < kOnAxis &&
+                         cursor_G.x() >= config_.passage_after;
+    if (through) return true;
     if (inside) {
       const double join = cursor_G.x() + kJoinAxis;
       if (cursor_G.tail<2>().norm() > 0.01 && join < config_.passage_after) {

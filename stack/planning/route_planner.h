@@ -59,6 +59,9 @@ struct RouteRequest {
   std::shared_ptr<const mapping::ClearanceField> field;
   base::Time start_time;               // when the new trajectory takes over
   TrajectoryPoint start;               // what the present one does then
+  /// Where the present trajectory goes next (some tenths of a second from `start` on): the new one begins by going the
+  /// same way, or frequent replanning would keep the vehicle from ever turning.
+  std::vector<base::Vec3> lead_O;
   std::vector<Passage> passages;       // in order; a closed one is the last
   std::optional<base::Vec3> target_O;  // after the passages
   std::vector<FreeZone> free_zones;

@@ -3,22 +3,42 @@
 #include <algorithm>
 #include <cmath>
 
-#include "stack/mapping/internal/distance_transform.h"
-
 namespace alula::tests {
 
 using base::Vec3;
 using stack::mapping::CellState;
 namespace mapping = stack::mapping;
 
-SyntheticMap::SyntheticMap(const Vec3& low_O, const Vec3& high_O, double cell) {
-  shape_.low_O = low_O;
-  shape_.cell = cell;
+namespace {
+
+mapping::GridShape Shape(const Vec3& low_O, const Vec3& high_O, double cell) {
+  mapping::GridShape shape;
+  shape.low_O = low_O;
+  shape.cell = cell;
   for (int a = 0; a < 3; ++a) {
-    shape_.size[static_cast<std::size_t>(a)] = static_cast<int>(std::lround((high_O[a] - low_O[a]) / cell));
+    shape.size[static_cast<std::size_t>(a)] = static_cast<int>(std::lround((high_O[a] - low_O[a]) / cell));
   }
-  occupied_.assign(shape_.count(), false);
-  state_.assign(shape_.count(), CellState::kUnknown);
+  return shape;
+}
+
+}  // namespace
+
+SyntheticMap::SyntheticMap(const Vec3& low_O, const Vec3& high_O, double cell)
+    : shape_(Shape(low_O, high_O, cell)),
+      occupied_(shape_.count(), false),
+      state_(shape_.count(), CellState::kUnknown),
+      transform_(shape_, mapping::ClearanceField{}.max_clearance) {
+  field_.shape = shape_;
+  field_.to_occupied.assign(shape_.count(), 255);
+  field_.to_not_free.assign(shape_.count(), 0);
+}
+
+void SyntheticMap::Reveal(int i, int j, int k) {
+  const std::size_t index = shape_.Index(i, j, k);
+  const CellState state = occupied_[index] ? CellState::kOccupied : CellState::kFree;
+  if (state_[index] == state) return;
+  state_[index] = state;
+  changed_.Add(i, j, k);
 }
 
 void SyntheticMap::AddBox(const base::Transform& X_OA, const Vec3& half_extents) {
@@ -42,9 +62,7 @@ void SyntheticMap::AddGate(const base::Transform& X_OG, double opening, double b
   }
 }
 
-void SyntheticMap::RevealAll() {
-  for (std::size_t i = 0; i < state_.size(); ++i) state_[i] = occupied_[i] ? CellState::kOccupied : CellState::kFree;
-}
+void SyntheticMap::RevealAll() { RevealBox(shape_.low_O, shape_.high_O()); }
 
 void SyntheticMap::RevealBox(const Vec3& low_O, const Vec3& high_O) {
   for (int i = 0; i < shape_.size[0]; ++i) {
@@ -52,8 +70,7 @@ void SyntheticMap::RevealBox(const Vec3& low_O, const Vec3& high_O) {
       for (int k = 0; k < shape_.size[2]; ++k) {
         const Vec3 p = shape_.Centre(i, j, k);
         if ((p.array() < low_O.array()).any() || (p.array() > high_O.array()).any()) continue;
-        const std::size_t index = shape_.Index(i, j, k);
-        state_[index] = occupied_[index] ? CellState::kOccupied : CellState::kFree;
+        Reveal(i, j, k);
       }
     }
   }
@@ -67,30 +84,21 @@ void SyntheticMap::Look(const base::Transform& X_OB, double range) {
       for (double s = 0.0; s < range; s += 0.5 * shape_.cell) {
         const auto cell = shape_.CellOf(X_OB.p + s * ray);
         if (!shape_.Contains(cell[0], cell[1], cell[2])) break;
-        const std::size_t index = shape_.Index(cell[0], cell[1], cell[2]);
-        state_[index] = occupied_[index] ? CellState::kOccupied : CellState::kFree;
-        if (occupied_[index]) break;
+        Reveal(cell[0], cell[1], cell[2]);
+        if (occupied_[shape_.Index(cell[0], cell[1], cell[2])]) break;
       }
     }
   }
 }
 
 std::shared_ptr<const mapping::ClearanceField> SyntheticMap::Snapshot() {
-  auto field = std::make_shared<mapping::ClearanceField>();
-  field->shape = shape_;
-  field->revision = ++revision_;
-  field->state = state_;
-  field->to_occupied.assign(shape_.count(), 255);
-  field->to_not_free.assign(shape_.count(), 255);
-  mapping::internal::CellBox all;
-  all.Add(0, 0, 0);
-  all.Add(shape_.size[0] - 1, shape_.size[1] - 1, shape_.size[2] - 1);
-  mapping::internal::DistanceTransform transform(shape_, field->max_clearance);
-  transform.Update(
-      state_, all, [](CellState s) { return s == CellState::kOccupied; }, field->to_occupied);
-  transform.Update(
-      state_, all, [](CellState s) { return s != CellState::kFree; }, field->to_not_free);
-  return field;
+  const auto occupied = [](CellState s) { return s == CellState::kOccupied; };
+  transform_.Update(state_, changed_, occupied, field_.to_occupied);
+  transform_.Update(
+      state_, changed_, [](CellState s) { return s != CellState::kFree; }, field_.to_not_free);
+  changed_ = {};
+  field_.revision = ++revision_;
+  return std::make_shared<const mapping::ClearanceField>(field_);
 }
 
 bool SyntheticMap::Occupied(const Vec3& p_O) const {

@@ -5,6 +5,7 @@
 
 #include "base/frames.h"
 #include "stack/mapping/clearance_field.h"
+#include "stack/mapping/internal/distance_transform.h"
 
 namespace alula::tests {
 
@@ -32,9 +33,14 @@ class SyntheticMap {
   double TrueDistance(const base::Vec3& p_O, double limit) const;
 
  private:
+  void Reveal(int i, int j, int k);
+
   stack::mapping::GridShape shape_;
   std::vector<bool> occupied_;
   std::vector<stack::mapping::CellState> state_;
+  stack::mapping::internal::CellBox changed_;  // since the last snapshot
+  stack::mapping::internal::DistanceTransform transform_;
+  stack::mapping::ClearanceField field_;
   std::uint64_t revision_ = 0;
 };
 
