@@ -40,20 +40,33 @@ Vector2f Projected(const Vector3f& p, const Vector3f& n) {
   return a.x() >= a.y() ? Vector2f(p.y(), p.z()) : Vector2f(p.x(), p.z());
 }
 
+void CheckFinite(const aiScene& scene, const std::filesystem::path& file) {
+  const auto finite = [](const aiVector3D& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned i = 0; i < part.mNumVertices; ++i) {
+      if (!finite(part.mVertices[i])) Fail(file, "vertex " + std::to_string(i) + " is not finite");
+      if (part.HasTextureCoords(0) && !finite(part.mTextureCoords[0][i])) {
+        Fail(file, "texture coordinate " + std::to_string(i) + " is not finite");
+      }
+    }
+  }
+}
+
 /// Appends one part. glTF stands y-up, our world z-up: (x, y, z) → (x, −z, y).
-void Append(Mesh& mesh, const aiMesh& part, bool y_up, const std::filesystem::path& file) {
+void Append(Mesh& mesh, const aiMesh& part, bool y_up) {
   const auto turned = [y_up](const aiVector3D& v) { return y_up ? Vector3f(v.x, -v.z, v.y) : Vector3f(v.x, v.y, v.z); };
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
   for (unsigned i = 0; i < part.mNumVertices; ++i) {
     Mesh::Vertex vertex;
     vertex.position = turned(part.mVertices[i]);
-    if (!vertex.position.allFinite()) Fail(file, "vertex " + std::to_string(i) + " is not finite");
     vertex.normal = part.HasNormals() ? turned(part.mNormals[i]) : Vector3f(Vector3f::UnitZ());
     if (!vertex.normal.allFinite() || vertex.normal.norm() < 1e-6F) vertex.normal = Vector3f::UnitZ();
     vertex.normal.normalize();
     vertex.uv = part.HasTextureCoords(0) ? Vector2f(part.mTextureCoords[0][i].x, part.mTextureCoords[0][i].y)
                                          : Projected(vertex.position, vertex.normal);
-    if (!vertex.uv.allFinite()) Fail(file, "texture coordinate " + std::to_string(i) + " is not finite");
     mesh.vertices.push_back(vertex);
   }
   for (unsigned i = 0; i < part.mNumFaces; ++i) {
@@ -73,12 +86,14 @@ Mesh LoadMesh(const std::filesystem::path& file, std::size_t max_triangles) {
     Fail(file, "unknown mesh format '" + extension + "'; use .gltf, .glb or .obj");
   }
   Assimp::Importer importer;
-  const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices |
-                                                              aiProcess_GenSmoothNormals |
-                                                              aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+  const aiScene* scene =
+      importer.ReadFile(file.string(), aiProcess_Triangulate | aiProcess_PreTransformVertices | aiProcess_SortByPType);
   if (scene == nullptr || scene->mRootNode == nullptr) {
     Fail(file, "cannot be read as a mesh: " + OneLine(importer.GetErrorString()));
   }
+  CheckFinite(*scene, file);  // before vertices are joined: comparing NaN drops triangles silently
+  scene = importer.ApplyPostProcessing(aiProcess_GenSmoothNormals | aiProcess_JoinIdenticalVertices);
+  if (scene == nullptr) Fail(file, "cannot be read as a mesh: " + OneLine(importer.GetErrorString()));
   std::size_t triangles = 0;
   for (unsigned i = 0; i < scene->mNumMeshes; ++i) triangles += scene->mMeshes[i]->mNumFaces;
   if (triangles > max_triangles) {
@@ -86,7 +101,7 @@ Mesh LoadMesh(const std::filesystem::path& file, std::size_t max_triangles) {
          std::to_string(triangles) + " triangles are more than the " + std::to_string(max_triangles) + " allowed");
   }
   Mesh mesh;
-  for (unsigned i = 0; i < scene->mNumMeshes; ++i) Append(mesh, *scene->mMeshes[i], extension != ".obj", file);
+  for (unsigned i = 0; i < scene->mNumMeshes; ++i) Append(mesh, *scene->mMeshes[i], extension != ".obj");
   if (mesh.triangles.empty()) Fail(file, "the mesh has no triangles");
   return mesh;
 }

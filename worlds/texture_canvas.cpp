@@ -1,6 +1,7 @@
 #include "worlds/texture_canvas.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -45,17 +46,41 @@ Canvas Doubled(const Canvas& in) {
   return out;
 }
 
-/// A random shape in its own coordinates, where it fits the unit circle.
-bool Inside(int kind, float x, float y) {
-  switch (kind) {
-    case 0:
-      return x * x + y * y < 1.0F;
-    case 1:
-      return std::max(std::abs(x), std::abs(y)) < 0.7F;
-    case 2:
-      return y > -0.5F && 1.732F * std::abs(x) + y < 1.0F;
-    default:
-      return std::abs(x) + std::abs(y) < 0.95F;
+/// The shapes in their own coordinates, where each fits the unit circle.
+struct Disc {
+  static bool Holds(float x, float y) { return x * x + y * y < 1.0F; }
+};
+struct Square {
+  static bool Holds(float x, float y) { return std::max(std::abs(x), std::abs(y)) < 0.7F; }
+};
+struct Triangle {
+  static bool Holds(float x, float y) { return y > -0.5F && 1.732F * std::abs(x) + y < 1.0F; }
+};
+struct Diamond {
+  static bool Holds(float x, float y) { return std::abs(x) + std::abs(y) < 0.95F; }
+};
+
+struct Leaf {
+  double x, y, radius;  // texels
+  float a, b;           // cosine and sine of its turn, over its radius
+  float stretch;        // how much narrower than long it is
+  float tone;
+  float opacity;
+};
+
+template <typename Form>
+void PaintLeaf(Canvas& canvas, const Leaf& leaf) {
+  const int x_first = static_cast<int>(std::floor(leaf.x - leaf.radius));
+  const int x_last = static_cast<int>(leaf.x + leaf.radius);
+  for (int y = static_cast<int>(std::floor(leaf.y - leaf.radius)); y <= static_cast<int>(leaf.y + leaf.radius); ++y) {
+    const auto dy = static_cast<float>(y - leaf.y);
+    float* row = &canvas.At(0, y);
+    for (int x = x_first; x <= x_last; ++x) {
+      const auto dx = static_cast<float>(x - leaf.x);
+      if (!Form::Holds(leaf.a * dx + leaf.b * dy, (leaf.a * dy - leaf.b * dx) * leaf.stretch)) continue;
+      float& tone = row[x & (canvas.size - 1)];
+      tone += leaf.opacity * (leaf.tone - tone);
+    }
   }
 }
 
@@ -90,70 +115,79 @@ void PaintLeaves(Canvas& canvas, const LeavesConfig& config, base::RandomStream&
     const double u = random.Uniform();
     const double r = 1.0 / std::sqrt((1.0 - u) / (low * low) + u / (high * high));  // density ∝ r⁻³ on [low, high]
     painted += 2.0 * r * r;                                                         // mean area of the shapes, about
-    const int kind = static_cast<int>(random.Index(4));
+    const std::uint64_t form = random.Index(4);
     const double angle = random.Uniform(0.0, 2.0 * std::numbers::pi);
-    const double cx = random.Uniform(0.0, canvas.size);
-    const double cy = random.Uniform(0.0, canvas.size);
-    const double narrow = random.Uniform(0.35, 1.0);
-    const auto value = static_cast<float>(random.Uniform(config.tone_min, config.tone_max));
-    const auto a = static_cast<float>(std::cos(angle) / r);
-    const auto b = static_cast<float>(std::sin(angle) / r);
-    const auto stretch = static_cast<float>(1.0 / narrow);
-    for (int y = static_cast<int>(std::floor(cy - r)); y <= static_cast<int>(cy + r); ++y) {
-      const auto dy = static_cast<float>(y - cy);
-      for (int x = static_cast<int>(std::floor(cx - r)); x <= static_cast<int>(cx + r); ++x) {
-        const auto dx = static_cast<float>(x - cx);
-        if (!Inside(kind, a * dx + b * dy, (a * dy - b * dx) * stretch)) continue;
-        float& tone = canvas.At(x, y);
-        tone += config.opacity * (value - tone);
-      }
-    }
+    Leaf leaf{};
+    leaf.x = random.Uniform(0.0, canvas.size);
+    leaf.y = random.Uniform(0.0, canvas.size);
+    leaf.radius = r;
+    leaf.a = static_cast<float>(std::cos(angle) / r);
+    leaf.b = static_cast<float>(std::sin(angle) / r);
+    leaf.stretch = static_cast<float>(1.0 / random.Uniform(0.35, 1.0));
+    leaf.tone = static_cast<float>(random.Uniform(config.tone_min, config.tone_max));
+    leaf.opacity = config.opacity;
+    if (form == 0) PaintLeaf<Disc>(canvas, leaf);
+    if (form == 1) PaintLeaf<Square>(canvas, leaf);
+    if (form == 2) PaintLeaf<Triangle>(canvas, leaf);
+    if (form == 3) PaintLeaf<Diamond>(canvas, leaf);
   }
 }
 
+namespace {
+
+struct CellPoint {
+  float x, y;
+  std::uint32_t id;
+};
+
+/// The nine points around grid cell (column, row), moved by whole periods to where they are nearest.
+std::array<CellPoint, 9> Neighbours(const std::vector<CellPoint>& points, int column, int row, int columns, int rows,
+                                    float period) {
+  std::array<CellPoint, 9> near{};
+  for (int i = 0; i < 9; ++i) {
+    const int c = column + i % 3 - 1;
+    const int r = row + i / 3 - 1;
+    CellPoint p = points[static_cast<std::size_t>((r + rows) % rows * columns + (c + columns) % columns)];
+    p.x += c < 0 ? -period : c >= columns ? period : 0.0F;
+    p.y += r < 0 ? -period : r >= rows ? period : 0.0F;
+    near[static_cast<std::size_t>(i)] = p;
+  }
+  return near;
+}
+
+}  // namespace
+
 Cells MakeCells(int size, int columns, int rows, double jitter, base::RandomStream& random) {
-  struct Point {
-    float x, y;
-  };
-  std::vector<Point> points;
+  std::vector<CellPoint> points;
   for (int r = 0; r < rows; ++r) {
     for (int c = 0; c < columns; ++c) {
-      points.push_back({static_cast<float>((c + 0.5 + jitter * random.Uniform(-0.5, 0.5)) * size / columns),
-                        static_cast<float>((r + 0.5 + jitter * random.Uniform(-0.5, 0.5)) * size / rows)});
+      const auto x = static_cast<float>((c + 0.5 + jitter * random.Uniform(-0.5, 0.5)) * size / columns);
+      const auto y = static_cast<float>((r + 0.5 + jitter * random.Uniform(-0.5, 0.5)) * size / rows);
+      points.push_back({x, y, static_cast<std::uint32_t>(points.size())});
     }
   }
   Cells cells;
   cells.id.reserve(static_cast<std::size_t>(size) * static_cast<std::size_t>(size));
   cells.edge.reserve(cells.id.capacity());
-  const auto period = static_cast<float>(size);
   for (int y = 0; y < size; ++y) {
-    for (int x = 0; x < size; ++x) {
-      const int column = x * columns / size;
-      const int row = y * rows / size;
-      float first = 1e9F;
-      float second = 1e9F;
-      std::uint32_t nearest = 0;
-      for (int dr = -1; dr <= 1; ++dr) {
-        const int r = row + dr;
-        const int r_in = (r + rows) % rows;
-        for (int dc = -1; dc <= 1; ++dc) {
-          const int c = column + dc;
-          const int c_in = (c + columns) % columns;
-          const auto id = static_cast<std::uint32_t>(r_in * columns + c_in);
-          const float px = points[id].x + (c < 0 ? -period : c >= columns ? period : 0.0F) - static_cast<float>(x);
-          const float py = points[id].y + (r < 0 ? -period : r >= rows ? period : 0.0F) - static_cast<float>(y);
-          const float d = px * px + py * py;
-          if (d < first) {
-            second = first;
-            first = d;
-            nearest = id;
-          } else if (d < second) {
-            second = d;
-          }
+    for (int column = 0; column < columns; ++column) {
+      const auto near = Neighbours(points, column, y * rows / size, columns, rows, static_cast<float>(size));
+      const int end = ((column + 1) * size + columns - 1) / columns;
+      for (int x = (column * size + columns - 1) / columns; x < end; ++x) {
+        float first = 1e9F;
+        float second = 1e9F;
+        std::uint32_t nearest = 0;
+        for (const CellPoint& p : near) {
+          const float dx = p.x - static_cast<float>(x);
+          const float dy = p.y - static_cast<float>(y);
+          const float d = dx * dx + dy * dy;
+          second = std::min(second, std::max(first, d));
+          nearest = d < first ? p.id : nearest;
+          first = std::min(first, d);
         }
+        cells.id.push_back(nearest);
+        cells.edge.push_back(0.5F * (std::sqrt(second) - std::sqrt(first)));
       }
-      cells.id.push_back(nearest);
-      cells.edge.push_back(0.5F * (std::sqrt(second) - std::sqrt(first)));
     }
   }
   return cells;

@@ -30,7 +30,7 @@ Canvas PinkNoise(int size, base::RandomStream& random);
 /// another, which gives edges and corners at every scale, as natural pictures have them.
 struct LeavesConfig {
   double coverage = 1.0;           // sum of the shapes' areas over the canvas's
-  double radius_min = 1.5 / 1024;  // of the canvas's side
+  double radius_min = 2.5 / 1024;  // of the canvas's side
   double radius_max = 0.1;
   float tone_min = 0.0F;
   float tone_max = 1.0F;

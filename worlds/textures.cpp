@@ -74,6 +74,20 @@ void PaintFallenCoat(Canvas& canvas, float threshold, float change, RandomStream
   }
 }
 
+/// Tones of mean 0.5 and deviation 0.27: all the contrast that a picture can hold with little of it clipped.
+void Stretch(Canvas& canvas) {
+  double sum = 0.0;
+  double squares = 0.0;
+  for (const float t : canvas.tone) {
+    sum += t;
+    squares += static_cast<double>(t) * t;
+  }
+  const double count = static_cast<double>(canvas.tone.size());
+  const double mean = sum / count;
+  const auto gain = static_cast<float>(0.27 / std::sqrt(std::max(squares / count - mean * mean, 1e-6)));
+  for (float& t : canvas.tone) t = 0.5F + gain * (t - static_cast<float>(mean));
+}
+
 void Paint(Canvas& canvas, Pattern pattern, RandomStream& random) {
   switch (pattern) {
     case Pattern::kBrick:
@@ -135,19 +149,25 @@ std::shared_ptr<const geometry::Texture> MakeTexture(Pattern pattern, const Pale
   RandomStream random(seed, "world/texture/" + std::string(name));
   Canvas canvas(size);
   Paint(canvas, pattern, random);
-  const Canvas warmth = PinkNoise(size, random);  // colours vary from reddish to bluish, whatever the tone
+  if (pattern != Pattern::kSignal && pattern != Pattern::kPad) Stretch(canvas);
+  Canvas warmth = PinkNoise(size / 4, random);  // colours vary from reddish to bluish, whatever the tone
 
   auto texture = std::make_shared<geometry::Texture>();
   texture->width = texture->height = size;
   texture->rgb.resize(3 * canvas.tone.size());
-  const Eigen::Vector3f shift(0.05F, 0.0F, -0.05F);
-  for (std::size_t i = 0; i < canvas.tone.size(); ++i) {
-    const float t = std::clamp(canvas.tone[i], 0.0F, 1.0F);
-    for (int c = 0; c < 3; ++c) {
-      const float colour = palette.dark[c] + t * (palette.light[c] - palette.dark[c]);
-      const float value = 255.0F * colour * (1.0F + shift[c] * warmth.tone[i]);
-      texture->rgb[3 * i + static_cast<std::size_t>(c)] =
-          static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
+  for (int c = 0; c < 3; ++c) {
+    const float dark = 255.0F * palette.dark[c];
+    const float range = 255.0F * palette.light[c] - dark;
+    const float shift = 0.05F * static_cast<float>(1 - c);
+    for (int y = 0; y < size; ++y) {
+      const float* tones = &canvas.At(0, y);
+      const float* warm = &warmth.At(0, y / 4);
+      std::uint8_t* out = texture->rgb.data() + 3 * canvas.Index(0, y) + c;
+      for (int x = 0; x < size; ++x) {
+        const float t = std::clamp(tones[x], 0.0F, 1.0F);
+        const float value = (dark + t * range) * (1.0F + shift * warm[x / 4]);
+        out[3 * x] = static_cast<std::uint8_t>(std::clamp(value + 0.5F, 0.0F, 255.0F));
+      }
     }
   }
   return texture;

@@ -46,20 +46,20 @@ double DistanceToSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - t * (b - a)).norm();
 }
 
-void CheckGateRoom(const World& world, std::size_t index, const Object& object, const std::vector<Vec3>& points) {
-  const Gate& gate = world.gates[index];
+/// Distance of an object from the gate's axis over 2 m before and after the opening; for the gate's own parts, by how
+/// much they stay outside the prism of the opening plus the 0.9 m asked of others, so that one bound serves both.
+double RoomAtGate(const Gate& gate, const Object& object, const std::vector<Vec3>& points) {
   const bool own = StartsWith(object.name, gate.name + "/");
   const Vec3 before = gate.X_WG * Vec3(-2.0, 0.0, 0.0);
   const Vec3 after = gate.X_WG * Vec3(2.0, 0.0, 0.0);
   const base::Transform X_GW = gate.X_WG.Inverse();
+  double least = 1e9;
   for (const Vec3& p : points) {
-    if (own) {  // bars stay outside the opening's prism
-      const Vec3 p_G = X_GW * p;
-      EXPECT_GE(std::max(std::abs(p_G.y()), std::abs(p_G.z())), 0.5 * gate.opening - 1e-6) << object.name;
-    } else {
-      EXPECT_GE(DistanceToSegment(p, before, after), 0.9) << object.name << " at " << gate.name;
-    }
+    const Vec3 p_G = X_GW * p;
+    const double outside = std::max(std::abs(p_G.y()), std::abs(p_G.z())) - 0.5 * gate.opening;
+    least = std::min(least, own ? outside + 0.9 : DistanceToSegment(p, before, after));
   }
+  return least;
 }
 
 TEST(Courtyard, RoomThatMustBeFreeIsFree) {
@@ -70,19 +70,27 @@ TEST(Courtyard, RoomThatMustBeFreeIsFree) {
     const Vec2 pad = world.X_WB_start.p.head<2>();
     for (const Object& object : world.objects) {
       if (StartsWith(object.name, "ground")) continue;
+      SCOPED_TRACE(object.name);
       const std::vector<Vec3> points = SurfacePoints(object);
-      for (std::size_t i = 0; i < world.gates.size(); ++i) CheckGateRoom(world, i, object, points);
+      for (const Gate& gate : world.gates) EXPECT_GE(RoomAtGate(gate, object, points), 0.9 - 1e-6) << gate.name;
+      double to_pad = 1e9;
+      double to_target = 1e9;
+      Vec3 low = Vec3::Constant(1e9);
+      Vec3 high = -low;
       for (const Vec3& p : points) {
-        if (object.name != world.pad_object) {
-          ASSERT_GE((p.head<2>() - pad).norm(), 1.2) << object.name;
-        }
-        ASSERT_GE((p - world.target).norm(), 1.0) << object.name;
-        ASSERT_GE(p.z(), -1e-6) << object.name;
-        if (!IsSurround(object)) {
-          ASSERT_LE(std::abs(p.x()), 15.0 + 1e-6) << object.name;
-          ASSERT_LE(std::abs(p.y()), 10.0 + 1e-6) << object.name;
-        }
+        to_pad = std::min(to_pad, (p.head<2>() - pad).norm());
+        to_target = std::min(to_target, (p - world.target).norm());
+        low = low.cwiseMin(p);
+        high = high.cwiseMax(p);
       }
+      if (object.name != world.pad_object) {
+        EXPECT_GE(to_pad, 1.2);
+      }
+      EXPECT_GE(to_target, 1.0);
+      EXPECT_GE(low.z(), -1e-6);
+      if (IsSurround(object)) continue;
+      EXPECT_LE(std::max(high.x(), -low.x()), 15.0 + 1e-6);
+      EXPECT_LE(std::max(high.y(), -low.y()), 10.0 + 1e-6);
     }
   }
 }
@@ -96,9 +104,13 @@ class Grid {
   static constexpr int kNy = 100;
 
   Grid(const World& world, double clearance) : blocked_(kNx * kNy, false) {
+    for (int i = 0; i < kNx * kNy; ++i) {  // the walls' inner faces
+      const Vec2 p = Centre(i % kNx, i / kNx).cwiseAbs();
+      blocked_[i] = p.x() > 15.0 - clearance || p.y() > 10.0 - clearance;
+    }
     const int reach = static_cast<int>(std::ceil(clearance / kCell)) + 1;
     for (const Object& object : world.objects) {
-      if (StartsWith(object.name, "ground") || object.name == world.pad_object) continue;
+      if (IsSurround(object) || object.name == world.pad_object) continue;
       for (const Vec3& p : SurfacePoints(object)) {
         const Vec2 q = p.head<2>();
         const int cx = Column(q.x(), 15.0);
@@ -148,7 +160,7 @@ class Grid {
 TEST(Courtyard, EveryLegCanBeFlownWithRoomOnBothSides) {
   int straight = 0;
   int legs = 0;
-  for (std::uint64_t seed = 1; seed <= 200; seed += 2) {
+  for (std::uint64_t seed = 1; seed <= 200; seed += 5) {
     SCOPED_TRACE(seed);
     const World world = MakeCourtyard(Small(), seed);
     const Grid grid(world, 0.6);
