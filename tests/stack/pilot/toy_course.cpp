@@ -85,7 +85,8 @@ std::string ToyResult::Log() const {
 }
 
 ToyResult Fly(const ToyCourse& course, std::uint64_t seed) {
-  SyntheticMap map(course.mission.bounds_low - Vec3(0.3, 0.3, 0.3), course.mission.bounds_high + Vec3(0.3, 0.3, 0), 0.1);
+  SyntheticMap map(course.mission.bounds_low - Vec3(0.3, 0.3, 0.3), course.mission.bounds_high + Vec3(0.3, 0.3, 0),
+                   0.1);
   for (const GateHint& gate : course.truth) map.AddGate(gate.X_WG, gate.opening);
   for (const Transform& box : course.boxes) map.AddBox(box, Vec3(0.4, 0.4, 0.4));
   const Vec3 start = course.mission.X_WB_start.p;
@@ -152,14 +153,8 @@ ToyResult Fly(const ToyCourse& course, std::uint64_t seed) {
       result.events.push_back(event);
       if (event.kind == "course") course_begin = now.Seconds();
     }
-    if (getenv("TOY_TRACE") && now.ns % 200'000'000 == 0) {
-      printf("%.1f p %.2f %.2f %.2f sp %.2f %.2f %.2f v %.2f yaw %.2f gate %d\n", now.Seconds(), vehicle.p.x(), vehicle.p.y(), vehicle.p.z(), vehicle.setpoint.p_OB.x(), vehicle.setpoint.p_OB.y(), vehicle.setpoint.p_OB.z(), vehicle.setpoint.v_OB.norm(), vehicle.yaw, mission.next_gate());
-    }
     if (output.request) {
       pending_route = {now + kPlanLatency, planning::PlanRoute(*output.request, course.route, *planner)};
-      const auto& r = pending_route->second;
-      if (getenv("TOY_TRACE")) printf("   route ok %d end %d flown %.2f of %.2f search %d %s\n", r.ok, static_cast<int>(r.end), r.flown_length, r.length, r.searches, r.reason.c_str());
-
     }
     const Vec3 before = vehicle.p;
     vehicle.Step(0.005);
