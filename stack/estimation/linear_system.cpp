@@ -138,8 +138,8 @@ void NormalEquations::AddLandmark(const double* landmark, std::span<const Sight>
     b_l += w * J_l.transpose() * r;
   }
   if (couplings.empty()) return;
-  // A landmark of unseen depth is held by a millionth of its lateral information: nothing else changes by that.
-  H_l.diagonal().array() += 1e-9 * H_l.trace();
+  // A landmark of unseen depth is held by 1e-11 of its lateral information: nothing else changes by that.
+  H_l.diagonal().array() += 1e-11 * H_l.trace();
   const base::Mat3 inverse = H_l.inverse();
   for (const Coupling& a : couplings) {
     const Eigen::Matrix<double, 6, 3> K = a.H * inverse;

@@ -60,7 +60,7 @@ struct CalibrationEstimate {
   double time_offset = 0.0;                         // s, added to the image stamps
 };
 
-/// Wall time by stage in ms, for profiling; never enters a result.
+/// Processor time of the calling thread by stage in ms, for profiling; never enters a result.
 struct OdometryTiming {
   double track = 0.0, detect = 0.0, solve = 0.0, covariance = 0.0, marginalise = 0.0;
   std::uint64_t frames = 0;

@@ -129,6 +129,7 @@ void SlidingWindow::RefreshModels() {
     const ImuState state = ReadState(*frame);
     frame->pair.v_OI = state.v_OI;
     frame->pair.w_I = frame->gyro - state.gyro_bias;
+    frame->pair.Invalidate();
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <ceres/sized_cost_function.h>
 
+#include <array>
+
 #include "stack/estimation/internal/parameters.h"
 
 namespace alula::stack::estimation {
@@ -13,6 +15,25 @@ struct PairModel {
   base::Vec3 v_OI = base::Vec3::Zero();  // m/s, at the stamp (held during a solve)
   base::Vec3 w_I = base::Vec3::Zero();   // rad/s, at the stamp
   double weight = 1.0;                   // focal length over the pixel's sigma
+
+  /// All that depends on the pose and the rig's refinement alone, and not on the landmark.
+  struct Geometry {
+    std::array<double, kPoseSize + kRigSize> parameters{};
+    bool valid = false;
+    base::Mat3 turn_T;          // transpose of the IMU's turn during the time offset
+    base::Mat3 R_IO;            // O → I at the exposure
+    base::Vec3 p_OI;            // of the IMU at the exposure
+    base::Mat3 R_LI, R_RL;      // I → left camera → right camera, refined
+    base::Vec3 p_IL, p_RL;      // left camera in I; left camera in the right one
+    base::Mat3 J_theta, J_psi;  // right Jacobians of the refinements
+  };
+  /// Computed anew only when a parameter has changed: hundreds of landmarks ask for the same. One thread.
+  const Geometry& At(const double* pose, const double* rig) const;
+  /// To be called after v_OI, w_I or the nominal rig were changed.
+  void Invalidate() { geometry_.valid = false; }
+
+ private:
+  mutable Geometry geometry_;
 };
 
 /// Reprojection of a landmark into one eye, in sigmas; blocks: pose, landmark, rig.
