@@ -1,0 +1,121 @@
+// The alula command as a user meets it.
+#include "tests/scenarios/command.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tests/scenarios/temporary_folder.h"
+
+namespace alula::scenarios::testing {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool IsEmpty(const fs::path& folder) { return fs::directory_iterator(folder) == fs::directory_iterator(); }
+
+TEST(Command, HoverPassesEndToEnd) {
+  const TemporaryFolder folder("hover");
+  const CommandResult run = Alula({"run", "hover"}, {.directory = folder.path()});
+  EXPECT_EQ(run.exit_code, 0) << run.out << run.err;
+  EXPECT_NE(run.out.find("hover: pass (landed), seed 1"), std::string::npos) << run.out;
+  const fs::path files = folder.path() / "runs" / "hover" / "1";
+  for (const char* name : {"verdict.json", "timing.json", "scenario.yaml", "truth.tum", "estimate.tum", "events.jsonl",
+                           "telemetry.csv", "world.json"}) {
+    EXPECT_GT(fs::file_size(files / name), 50U) << name;
+  }
+  const auto verdict = nlohmann::json::parse(ReadText(files / "verdict.json"));
+  EXPECT_EQ(verdict["outcome"], "pass");
+  EXPECT_EQ(verdict["seed"], 1);
+  EXPECT_EQ(verdict["digest"].get<std::string>().size(), 16U);
+  for (const auto& check : verdict["checks"]) EXPECT_TRUE(check["passed"]) << check;
+  EXPECT_LT(verdict["metrics"]["ate_online_m"], 0.05);
+  EXPECT_GT(nlohmann::json::parse(ReadText(files / "timing.json"))["real_time_factor"], 1.0);
+  for (const auto& entry : fs::directory_iterator(files)) EXPECT_NE(entry.path().filename().string()[0], '.');
+}
+
+TEST(Command, FailedCriterionExitsWithOne) {
+  const TemporaryFolder folder("fail");
+  const CommandResult run =
+      Alula({"run", "hover", "--set", "criteria=[{type: time_limit, limit: 1 s}]", "--out", folder.path() / "r"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_NE(run.out.find("FAIL  duration"), std::string::npos) << run.out;
+}
+
+TEST(Command, JsonIsAllThatIsPrinted) {
+  const TemporaryFolder folder("json");
+  const CommandResult run = Alula({"run", "hover", "--json", "--out", folder.path() / "r"});
+  EXPECT_EQ(nlohmann::json::parse(run.out)["outcome"], "pass");
+  EXPECT_EQ(run.err, "");
+  const CommandResult list = Alula({"list", "--json"});
+  EXPECT_GE(nlohmann::json::parse(list.out).size(), 3U);
+}
+
+struct BadInput {
+  std::vector<std::string> arguments;
+  std::string message;  // what the line on stderr contains
+};
+
+TEST(Command, BadInputIsOneLineAndExitsWithTwo) {
+  const TemporaryFolder folder("bad");
+  std::ofstream(folder.path() / "file") << "x";
+  std::ofstream(folder.path() / "typo.yaml") << "extends: hover\nsensrs:\n  imu:\n    rate: 100 Hz\n";
+  std::ofstream(folder.path() / "unit.yaml") << "extends: hover\nvehicle:\n  mass: 0.7\n";
+  std::ofstream(folder.path() / "mesh.yaml") << "extends: courtyard_gates\nworld:\n  prop: nowhere.obj\n";
+  const std::string out = folder.path() / "r";
+  const std::vector<BadInput> table = {
+      {{"run", "hoover"}, "did you mean `hover`?"},
+      {{"run", folder.path() / "none.yaml"}, "no such file"},
+      {{"run", folder.path() / "typo.yaml", "--out", out}, "typo.yaml:2:1: sensrs:"},
+      {{"run", folder.path() / "unit.yaml", "--out", out}, "unit.yaml:3:9: vehicle.mass:"},
+      {{"check", folder.path() / "mesh.yaml"}, "nowhere.obj"},
+      {{"run", "hover", "--set", "vehicle.mas=1 kg", "--out", out}, "mas"},
+      {{"run", "hover", "--set", "nonsense"}, "path.to.key=value"},
+      {{"run", "hover", "--out", folder.path() / "file" / "r"}, "cannot write to"},
+      {{"run", "hover", "--render", "vulkan"}, "--render"},
+      {{"run", "hover", "--seed", "minus one"}, "--seed"},
+      {{"fly"}, "alula --help"},
+      {{}, "alula --help"},
+      {{"bench", "nothing"}, "no benchmark is called"},
+  };
+  for (const BadInput& bad : table) {
+    const CommandResult run = Alula(bad.arguments, {.directory = folder.path()});
+    EXPECT_EQ(run.exit_code, 2) << bad.message << '\n' << run.err;
+    EXPECT_NE(run.err.find(bad.message), std::string::npos) << "wanted: " << bad.message << "\nsaid: " << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+    EXPECT_EQ(run.out, "") << run.out;
+  }
+  EXPECT_FALSE(fs::exists(folder.path() / "r"));
+  EXPECT_FALSE(fs::exists(folder.path() / "runs"));
+}
+
+TEST(Command, HelpOfEveryVerb) {
+  for (const char* verb : {"run", "list", "check", "bench"}) {
+    const CommandResult help = Alula({verb, "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    EXPECT_NE(help.out.find("--help"), std::string::npos);
+  }
+  EXPECT_EQ(Alula({"--help"}).exit_code, 0);
+}
+
+TEST(Command, InterruptLeavesNothingBehind) {
+  const TemporaryFolder folder("interrupt");
+  // Ten simulated minutes, and the interrupt comes after the first ten seconds of them.
+  const CommandResult run = Alula({"run", "hover", "--set", "stack.dwell=600 s", "--set",
+                                   "criteria=[{type: time_limit, limit: 3600 s}]", "--out", folder.path() / "a" / "b"},
+                                  {.interrupt_when_err_has_lines = 1});
+  EXPECT_EQ(run.exit_code, 130) << run.err;
+  EXPECT_NE(run.err.find("interrupted"), std::string::npos);
+  EXPECT_TRUE(IsEmpty(folder.path()));
+}
+
+TEST(Command, CheckSaysGood) {
+  const CommandResult check = Alula({"check", "hover", "prescribed_flight"});
+  EXPECT_EQ(check.exit_code, 0) << check.err;
+  EXPECT_NE(check.out.find("hover.yaml: good"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace alula::scenarios::testing

@@ -1,0 +1,215 @@
+// The cameras against the physics, and against the inertial unit.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <vector>
+
+#include "base/random.h"
+#include "render/camera_renderer.h"
+#include "sim/physics_world.h"
+#include "sim/sensors/image_taker.h"
+#include "sim/sensors/suite.h"
+#include "tests/sim/test_world.h"
+#include "vehicles/prescribed.h"
+#include "worlds/courtyard.h"
+
+namespace alula::sim {
+namespace {
+
+using base::Vec3;
+
+/// Mesa reads these when its first context is made.
+const bool kEnvironment = [] {
+  ::setenv("LP_NUM_THREADS", "0", 1);
+  ::setenv("LP_NATIVE_VECTOR_WIDTH", "256", 1);
+  return true;
+}();
+
+/// Bullet and the renderer are built from one geometry: whatever a pixel sees, a ray hits at the same depth.
+TEST(Cameras, RenderedDepthIsWhereBulletsRaysEnd) {
+  const worlds::World world = worlds::MakeCourtyard({}, 3);
+  vehicles::VehicleBody body = testing::PlateOnLegs();
+  body.prescribed = true;
+  const PhysicsWorld physics(world, body, testing::At({0, 0, 50}));
+  const auto renderer = render::MakeRenderer("auto", world, {});
+  StereoCameraConfig camera;
+  const stack::CameraIntrinsics k = IntrinsicsOf(camera);
+  base::RandomStream random(5, "test/depth");
+  int compared = 0, different = 0;
+  render::DepthPicture depth;
+  for (int pose = 0; pose < 8; ++pose) {
+    const Vec3 p(random.Uniform(-12, 12), random.Uniform(-7, 7), random.Uniform(0.8, 2.8));
+    const base::Quat q =
+        base::FromYawPitchRoll(random.Uniform(-3.1, 3.1), random.Uniform(-0.2, 0.3), random.Uniform(-0.2, 0.2));
+    const base::Transform X_WC = base::Transform{q, p} * EyePose(camera, 0);
+    renderer->Depth({.X_WC = X_WC, .intrinsics = k}, depth);
+    for (int i = 0; i < 400; ++i) {
+      const int u = static_cast<int>(random.Index(640)), v = static_cast<int>(random.Index(480));
+      const Vec3 ray((u - k.cx) / k.fx, (v - k.cy) / k.fy, 1.0);  // unit depth
+      const auto hit = physics.CastRay(X_WC.p, X_WC * Vec3(60.0 * ray));
+      const double seen = static_cast<double>(depth.metres[static_cast<std::size_t>(v) * 640 + u]);
+      const double ray_depth = hit ? hit->distance / ray.norm() : 0.0;
+      ++compared;
+      // Round solids are drawn with 24 facets: up to r (1 − cos 7.5°) ≈ 1 % of their radius, seen at a slant; pixels on
+      // an edge may see either side.
+      if (std::abs(seen - ray_depth) > 0.03 + 0.01 * ray_depth) ++different;
+    }
+  }
+  EXPECT_EQ(compared, 3200);
+  EXPECT_LT(different, compared / 50);
+}
+
+TEST(Cameras, ThreadChangesNoByte) {
+  const worlds::World world = testing::GroundAndCrate();
+  StereoCameraConfig camera;
+  camera.width = 160;
+  camera.height = 120;
+  const auto renderer = render::MakeRenderer("auto", world, {});
+  const auto shoot = [&](bool own_thread) {
+    ImageTaker taker(camera, 9, "vehicle0", *renderer, own_thread);
+    for (std::uint32_t seq = 0; seq < 3; ++seq) {
+      taker.Request(seq, {seq * 50'000'000}, {base::Quat::Identity(), {0.1 * seq, 0, 1}});
+    }
+    std::vector<std::uint8_t> bytes;
+    for (int i = 0; i < 3; ++i) {
+      for (const stack::Image& image : taker.Fetch())
+        bytes.insert(bytes.end(), image.bytes->begin(), image.bytes->end());
+    }
+    return bytes;
+  };
+  const std::vector<std::uint8_t> here = shoot(false);
+  EXPECT_EQ(here.size(), 6U * 160 * 120);
+  EXPECT_EQ(here, shoot(true));
+}
+
+/// A dark ball before a bright sky, high above the ground: its centroid is a landmark to about a
+/// tenth of a pixel (it is 5 px across its radius, and seen off the axis its centre lies 0.07 px from the ball's).
+worlds::World BallInTheSky(const Vec3& p_W) {
+  worlds::World world;
+  world.name = "ball";
+  world.materials.push_back({.name = "dark", .colour = {0.02F, 0.02F, 0.02F}, .texture = nullptr});
+  world.objects.push_back({.name = "ball", .shape = geometry::Sphere{0.12}, .X_WO = {base::Quat::Identity(), p_W}});
+  world.light.sky = {1, 1, 1};
+  return world;
+}
+
+/// Centroid of darkness; nothing where the ball is cut off or away.
+std::optional<base::Vec2> Centroid(const stack::Image& image) {
+  double weight = 0, su = 0, sv = 0;
+  int low_u = image.width, high_u = -1, low_v = image.height, high_v = -1;
+  for (int v = 0; v < image.height; ++v) {
+    for (int u = 0; u < image.width; ++u) {
+      const double dark = 255.0 - image.Row(v)[u];
+      if (dark < 200.0) continue;  // the ground below the horizon is grey, the ball is black
+      weight += dark;
+      su += dark * u;
+      sv += dark * v;
+      low_u = std::min(low_u, u), high_u = std::max(high_u, u);
+      low_v = std::min(low_v, v), high_v = std::max(high_v, v);
+    }
+  }
+  const bool cut = low_u < 2 || low_v < 2 || high_u > image.width - 3 || high_v > image.height - 3;
+  if (weight < 5000.0 || cut) return std::nullopt;
+  return base::Vec2(su / weight, sv / weight);
+}
+
+/// Rotation of the body from t0 to t1 out of gyro samples alone, trapezoids between their stamps.
+base::Quat GyroTurn(const std::vector<std::pair<base::Time, Vec3>>& gyro, base::Time t0, base::Time t1) {
+  const auto at = [&](base::Time t) {
+    const auto after =
+        std::lower_bound(gyro.begin(), gyro.end(), t, [](const auto& s, base::Time x) { return s.first < x; });
+    const auto before = std::prev(after);
+    const double s = (t - before->first).Seconds() / (after->first - before->first).Seconds();
+    return Vec3((1 - s) * before->second + s * after->second);
+  };
+  base::Quat q = base::Quat::Identity();
+  constexpr int kParts = 50;
+  for (int i = 0; i < kParts; ++i) {
+    const double dt = (t1 - t0).Seconds() / kParts;
+    q = q * base::Exp(dt * at(t0 + base::Seconds((i + 0.5) * dt)));
+  }
+  return q;
+}
+
+/// Where a landmark goes in the picture over half a second is what gyro and velocity say: cameras, IMU and their stamps
+/// describe one motion. A time shift δ between them shows as f δ |ω(t1) − ω(t0)|: 1 ms here is about 0.7 px.
+TEST(Cameras, OpticalFlowAgreesWithGyroAndVelocity) {
+  const Vec3 ball(9, 0, 30);
+  const worlds::World world = BallInTheSky(ball);
+  vehicles::SineMotion motion;
+  motion.start = {0, 0, 30};
+  motion.terms = {{{0.8, 0.8, 0.4}, 0.25, {0, 1.0, 2.0}}};
+  motion.yaw_amplitude = 0.35;
+  motion.yaw_frequency = 0.5;
+  motion.ramp = 1.0;
+  motion.flight_time = 6.0;
+  vehicles::PrescribedConfig config;
+  config.standstill = 0.2;
+  config.motion = motion;
+  config.attitude = vehicles::SineAttitude{0.15, 0.6, 0.12, 0.7};
+  const auto vehicle = vehicles::MakePrescribed(config, "vehicle0");
+
+  SensorsConfig sensors;
+  sensors.imu->noise = {};
+  sensors.stereo = StereoCameraConfig{};
+  sensors.stereo->noise = {0.0, 0.0};
+  const stack::Calibration truth = TrueCalibration(sensors, vehicle->body(), "vehicle0");
+  const auto renderer = render::MakeRenderer("auto", world, {});
+  SensorSuite suite(sensors, base::Milliseconds(1), 1, "vehicle0", renderer.get(), 1);
+
+  std::vector<std::pair<base::Time, Vec3>> gyro;
+  std::vector<std::pair<base::Time, std::optional<base::Vec2>>> seen;
+  std::vector<stack::Measurement> measurements;
+  TruthWindow window{{0}, {0}, vehicle->Prescribed({0}), vehicle->Prescribed({0})};
+  suite.Settle(window.at_end);
+  for (int i = 0; i < 5500; ++i) {
+    suite.Measure(window, {});
+    suite.Collect(window.end, measurements);
+    for (const stack::Measurement& m : measurements) {
+      if (const auto* imu = std::get_if<stack::ImuSample>(&m.data))
+        gyro.emplace_back(m.captured, imu->angular_velocity);
+      const auto* image = std::get_if<stack::Image>(&m.data);
+      if (image != nullptr && m.sensor == truth.cameras[0].sensor) seen.emplace_back(m.captured, Centroid(*image));
+    }
+    const base::Time next = window.end + base::Milliseconds(1);
+    window = {window.end, next, window.at_end, vehicle->Prescribed(next)};
+    suite.Integrate(window.at_begin, window.at_end);
+  }
+
+  const stack::CameraIntrinsics& k = truth.cameras[0].intrinsics;
+  const base::Transform& X_BC = truth.cameras[0].X_BC;
+  int compared = 0;
+  double largest = 0.0, fastest = 0.0;
+  constexpr std::size_t kFrames = 10;
+  double squares = 0.0;
+  for (std::size_t i = 0; i + kFrames < seen.size(); ++i) {
+    const auto& [t0, c0] = seen[i];
+    const auto& [t1, c1] = seen[i + kFrames];
+    if (!c0 || !c1 || t0 < gyro.front().first || t1 > gyro.back().first) continue;
+    // The landmark in the first camera from its picture and its true distance, carried on by gyro and velocity.
+    const vehicles::BodyState s0 = vehicle->Prescribed(t0);
+    const double range = (s0.X_WB * X_BC.p - ball).norm();
+    const Vec3 p_C0 = range * Vec3((c0->x() - k.cx) / k.fx, (c0->y() - k.cy) / k.fy, 1.0).normalized();
+    Vec3 moved_W = Vec3::Zero();
+    for (base::Time t = t0; t < t1; t += base::Milliseconds(1)) {
+      moved_W += 1e-3 * vehicle->Prescribed(t + base::Microseconds(500)).v_WB;
+    }
+    const Vec3 moved_B0 = s0.X_WB.q.conjugate() * moved_W;
+    const Vec3 p_B1 = GyroTurn(gyro, t0, t1).conjugate() * Vec3(X_BC * p_C0 - moved_B0);
+    const Vec3 p_C1 = X_BC.Inverse() * p_B1;
+    const base::Vec2 expected(k.fx * p_C1.x() / p_C1.z() + k.cx, k.fy * p_C1.y() / p_C1.z() + k.cy);
+    largest = std::max(largest, (expected - *c1).norm());
+    squares += (expected - *c1).squaredNorm();
+    fastest = std::max(fastest, (*c1 - *c0).norm());
+    ++compared;
+  }
+  EXPECT_GT(compared, 60);
+  EXPECT_GT(fastest, 100.0);  // px: there was something to agree on
+  EXPECT_LT(largest, 0.4);    // px, two centroids' errors
+  EXPECT_LT(std::sqrt(squares / compared), 0.2);
+}
+
+}  // namespace
+}  // namespace alula::sim
