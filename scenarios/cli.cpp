@@ -31,6 +31,7 @@ CLI::App* AddRun(CLI::App& app, CommandLine& line, Raw& raw) {
   run->add_option("--workers", line.workers, "threads inside the run; they change no result")->check(CLI::Range(1, 64));
   run->add_option("--render", line.render, "who draws the pictures: osmesa, egl or auto")
       ->check(CLI::IsMember({"auto", "osmesa", "egl"}));
+  run->add_flag("--video", line.video, "film the run into video.mp4 of its folder (1280x720, 30 pictures a second)");
   run->add_flag("--quiet", line.quiet, "print the last line only");
   run->add_flag("--json", line.json, "print verdict.json instead of the table");
   return run;
@@ -44,9 +45,9 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
   app.require_subcommand(1);
   Raw raw;
   CLI::App* run = AddRun(app, line, raw);
-  CLI::App* list = app.add_subcommand("list", "name the scenarios of the catalog");
+  CLI::App* list = app.add_subcommand("list", "name the scenarios, vehicles and worlds of the catalogs");
   list->add_flag("--json", line.json, "as JSON");
-  CLI::App* check = app.add_subcommand("check", "read scenario files and build what they describe, without flying");
+  CLI::App* check = app.add_subcommand("check", "read YAML files and build what they describe, without flying");
   check->add_option("files", line.names, "names of the catalog or YAML files")->required();
   check->add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
   check->add_option("--seed", raw.seed, "from which distributions are drawn");

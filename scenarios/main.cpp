@@ -1,5 +1,6 @@
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdio>
@@ -15,6 +16,7 @@
 #include "scenarios/environment.h"
 #include "scenarios/internal/cli.h"
 #include "scenarios/progress.h"
+#include "scenarios/report/video_recorder.h"
 #include "scenarios/runner.h"
 #include "scenarios/scenario.h"
 #include "sim/run_folder.h"
@@ -44,11 +46,18 @@ int Run(const CommandLine& line) {
   options.render = line.render;
   options.out = line.out ? *line.out : std::filesystem::path("runs") / scenario.name / std::to_string(scenario.seed);
   options.interrupt = &interrupted;
+  if (line.video) {
+    options.spectators.push_back(FilmTheRun(scenario.name + ", seed " + std::to_string(scenario.seed)));
+  }
   Progress progress(scenario.name, LimitOf(scenario.config), !line.quiet && !line.json);
   options.progress = [&progress](base::Time time) { progress.Show(time); };
   CatchInterrupts();
   const Verdict verdict = RunScenario(scenario, options);
   progress.Clear();
+  if (verdict.versions.at("cpu") != "avx2+fma") {
+    std::fprintf(stderr,
+                 "note: this processor lacks AVX2 or FMA; digests differ from those of processors that have them\n");
+  }
   const std::string table = ToTable(verdict);
   if (line.json) {
     std::fputs(ToJson(verdict).c_str(), stdout);
@@ -62,10 +71,11 @@ int Run(const CommandLine& line) {
 
 int List(const CommandLine& line) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
-  for (const std::filesystem::path& file : ListScenarios()) {
-    const Scenario scenario = LoadScenario(file, {}, std::nullopt);
-    json.push_back({{"name", scenario.name}, {"meaning", scenario.config.meaning}});
-    if (!line.json) std::printf("%-20s %s\n", scenario.name.c_str(), scenario.config.meaning.c_str());
+  for (const CatalogEntry& entry : ListCatalogs()) {
+    const std::string meaning =
+        entry.kind == "scenario" ? LoadScenario(entry.file, {}, std::nullopt).config.meaning : std::string();
+    json.push_back({{"kind", entry.kind}, {"name", entry.name}, {"meaning", meaning}});
+    if (!line.json) std::printf("%-10s%-20s %s\n", entry.kind.c_str(), entry.name.c_str(), meaning.c_str());
   }
   if (line.json) std::printf("%s\n", json.dump(2).c_str());
   return 0;
@@ -73,9 +83,16 @@ int List(const CommandLine& line) {
 
 int CheckFiles(const CommandLine& line) {
   for (const std::string& name : line.names) {
-    const std::filesystem::path file = FindScenario(name);
-    TryToBuild(LoadScenario(file, line.overrides, line.seed));
-    if (!line.quiet) std::printf("%s: good\n", file.c_str());
+    const CatalogEntry entry = FindAny(name);
+    const std::uint64_t seed = line.seed.value_or(1);
+    if (entry.kind == "vehicle") {
+      MakeVehicle(LoadVehicle(entry.file, line.overrides, seed), "vehicle0");
+    } else if (entry.kind == "world") {
+      MakeWorld(LoadWorld(entry.file, line.overrides, seed), seed);
+    } else {
+      TryToBuild(LoadScenario(entry.file, line.overrides, line.seed));
+    }
+    if (!line.quiet) std::printf("%s: good\n", entry.file.c_str());
   }
   return 0;
 }

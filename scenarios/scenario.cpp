@@ -12,6 +12,33 @@ namespace {
 
 fs::path SourceTree() { return ALULA_SOURCE_DIR; }
 
+constexpr const char* kKinds[] = {"scenario", "vehicle", "world"};  // in the order of Catalogs()
+
+void DescribeWorld(base::Description& d, WorldConfig& c) {
+  d.OneOf("world", c, {.meaning = "where it happens", .choices = {"open_ground", "courtyard"}});
+}
+void DescribeVehicle(base::Description& d, VehicleConfig& c) {
+  d.OneOf("vehicle", c, {.meaning = "what moves", .choices = {"quadrotor", "prescribed"}});
+}
+
+/// A scenario of which only one key is looked at.
+struct VehiclePart {
+  static constexpr const char* kKey = "vehicle";
+  VehicleConfig vehicle;
+};
+void Describe(base::Description& d, VehiclePart& c) { DescribeVehicle(d, c.vehicle); }
+struct WorldPart {
+  static constexpr const char* kKey = "world";
+  WorldConfig world;
+};
+void Describe(base::Description& d, WorldPart& c) { DescribeWorld(d, c.world); }
+
+template <typename Part>
+Part LoadPart(const fs::path& file, const std::vector<base::Override>& overrides, std::uint64_t seed) {
+  const std::string text = std::string(Part::kKey) + ":\n  extends: " + fs::absolute(file).string() + "\n";
+  return base::ReadConfig<Part>(base::YamlDocument::Parse(text, file.string(), Catalogs(), overrides), seed);
+}
+
 }  // namespace
 
 void Describe(base::Description& d, MissionConfig& c) {
@@ -22,8 +49,8 @@ void Describe(base::Description& d, MissionConfig& c) {
 void Describe(base::Description& d, ScenarioConfig& c) {
   d.Field("meaning", c.meaning, {.meaning = "one sentence for the list"});
   d.Field("seed", c.seed, {.meaning = "of all random numbers, unless the command line names one"});
-  d.OneOf("world", c.world, {.meaning = "where it happens", .choices = {"open_ground", "courtyard"}});
-  d.OneOf("vehicle", c.vehicle, {.meaning = "what moves", .choices = {"quadrotor", "prescribed"}});
+  DescribeWorld(d, c.world);
+  DescribeVehicle(d, c.vehicle);
   d.OneOf("autopilot", c.autopilot, {.meaning = "low-level control", .choices = {"none", "multicopter"}});
   d.Field("autopilot_sensors", c.autopilot_sensors, {.meaning = "what the autopilot owns"});
   d.Field("sensors", c.sensors, {.meaning = "what the stack is given"});
@@ -43,14 +70,49 @@ std::vector<fs::path> Catalogs() {
   return {SourceTree() / "scenarios" / "catalog", SourceTree() / "vehicles" / "catalog", worlds::CatalogPath()};
 }
 
+std::vector<CatalogEntry> ListCatalogs() {
+  std::vector<CatalogEntry> entries;
+  const std::vector<fs::path> folders = Catalogs();
+  for (std::size_t i = 0; i < folders.size(); ++i) {
+    const std::size_t first = entries.size();
+    for (const fs::directory_entry& entry : fs::directory_iterator(folders[i])) {
+      const fs::path& path = entry.path();
+      if (path.extension() != ".yaml" || path.filename().string().front() == '_') continue;
+      entries.push_back({kKinds[i], path.stem().string(), path});
+    }
+    std::sort(entries.begin() + static_cast<std::ptrdiff_t>(first), entries.end(),
+              [](const CatalogEntry& a, const CatalogEntry& b) { return a.name < b.name; });
+  }
+  return entries;
+}
+
 std::vector<fs::path> ListScenarios() {
   std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(Catalogs().front())) {
-    const fs::path& path = entry.path();
-    if (path.extension() == ".yaml" && path.filename().string().front() != '_') files.push_back(path);
+  for (const CatalogEntry& entry : ListCatalogs()) {
+    if (entry.kind == kKinds[0]) files.push_back(entry.file);
   }
-  std::sort(files.begin(), files.end());
   return files;
+}
+
+CatalogEntry FindAny(std::string_view name_or_path) {
+  const fs::path given(name_or_path);
+  if (given.extension() == ".yaml" || given.extension() == ".yml" || given.has_parent_path()) {
+    if (!fs::is_regular_file(given)) throw base::InputError(given.string() + ": no such file");
+    const std::vector<fs::path> folders = Catalogs();
+    for (std::size_t i = 1; i < folders.size(); ++i) {
+      if (fs::canonical(given).parent_path() == fs::canonical(folders[i])) {
+        return {kKinds[i], given.stem().string(), given};
+      }
+    }
+    return {kKinds[0], given.stem().string(), given};
+  }
+  std::vector<std::string> names;
+  for (const CatalogEntry& entry : ListCatalogs()) {
+    if (entry.name == name_or_path) return entry;
+    names.push_back(entry.name);
+  }
+  throw base::InputError("nothing in the catalogs is called '" + std::string(name_or_path) + "'; " +
+                         base::Suggestion(name_or_path, names, "names"));
 }
 
 fs::path FindScenario(std::string_view name_or_path) {
@@ -66,6 +128,14 @@ fs::path FindScenario(std::string_view name_or_path) {
   }
   throw base::InputError("no scenario is called '" + std::string(name_or_path) + "'; " +
                          base::Suggestion(name_or_path, names, "scenarios"));
+}
+
+VehicleConfig LoadVehicle(const fs::path& file, const std::vector<base::Override>& overrides, std::uint64_t seed) {
+  return LoadPart<VehiclePart>(file, overrides, seed).vehicle;
+}
+
+WorldConfig LoadWorld(const fs::path& file, const std::vector<base::Override>& overrides, std::uint64_t seed) {
+  return LoadPart<WorldPart>(file, overrides, seed).world;
 }
 
 Scenario LoadScenario(const fs::path& file, const std::vector<base::Override>& overrides,

@@ -86,7 +86,24 @@ std::filesystem::path FindScenario(std::string_view name_or_path);
 Scenario LoadScenario(const std::filesystem::path& file, const std::vector<base::Override>& overrides,
                       std::optional<std::uint64_t> seed);
 
-/// The scenarios of the catalog that are meant to be run (files that begin with '_' are parts), sorted by name.
+/// What can be named: scenarios (their parts, which begin with '_', apart), vehicles, worlds.
+struct CatalogEntry {
+  std::string kind;  // "scenario", "vehicle", "world"
+  std::string name;
+  std::filesystem::path file;
+};
+/// All of the catalogs, by kind, then by name.
+std::vector<CatalogEntry> ListCatalogs();
 std::vector<std::filesystem::path> ListScenarios();
+
+/// What a file is (the catalog that it lies in says it; a file elsewhere is a scenario), and where it is. Throws
+/// base::InputError.
+CatalogEntry FindAny(std::string_view name_or_path);
+
+/// Reads a vehicle's or a world's file as scenarios do when they extend it.
+VehicleConfig LoadVehicle(const std::filesystem::path& file, const std::vector<base::Override>& overrides,
+                          std::uint64_t seed);
+WorldConfig LoadWorld(const std::filesystem::path& file, const std::vector<base::Override>& overrides,
+                      std::uint64_t seed);
 
 }  // namespace alula::scenarios

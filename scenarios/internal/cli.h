@@ -19,6 +19,7 @@ struct CommandLine {
   std::optional<std::filesystem::path> out;
   int workers = 1;
   std::string render = "auto";
+  bool video = false;
   bool quiet = false;
   bool json = false;
   std::filesystem::path json_file;  // of bench

@@ -57,4 +57,15 @@ std::optional<std::string> VideoRecorder::Observe(const sim::StepView& step) {
   return std::nullopt;
 }
 
+SpectatorMaker FilmTheRun(std::string title) {
+  return [title = std::move(title)](const Stage& stage) -> std::unique_ptr<Spectator> {
+    std::optional<stack::SensorId> left;
+    if (stage.calibration.stereo) {
+      left = stage.calibration.cameras.at(static_cast<std::size_t>((*stage.calibration.stereo)[0])).sensor;
+    }
+    return std::make_unique<VideoRecorder>(stage.folder / "video.mp4", stage.render, stage.world, stage.body, left,
+                                           title);
+  };
+}
+
 }  // namespace alula::scenarios

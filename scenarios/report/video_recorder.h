@@ -7,7 +7,7 @@
 
 #include "scenarios/report/mp4_writer.h"
 #include "scenarios/report/video_frame.h"
-#include "sim/observer.h"
+#include "scenarios/runner.h"
 #include "vehicles/vehicle.h"
 #include "worlds/world.h"
 
@@ -15,7 +15,7 @@ namespace alula::scenarios {
 
 /// Films a run: looks at every step and composes thirty pictures a second of simulated time. It never ends a run and
 /// nothing reads it, so a digest does not depend on it.
-class VideoRecorder : public sim::Observer {
+class VideoRecorder : public Spectator {
  public:
   /// `left_camera`: the sensor whose pictures are shown; none where the vehicle has no camera.
   /// Throws base::InputError where ffmpeg or the maker is missing.
@@ -24,7 +24,7 @@ class VideoRecorder : public sim::Observer {
 
   std::optional<std::string> Observe(const sim::StepView& step) override;
   /// Puts the finished file in place.
-  void Finish() { writer_.Finish(); }
+  void Finish() override { writer_.Finish(); }
 
  private:
   void Remember(const sim::StepView& step);
@@ -35,5 +35,8 @@ class VideoRecorder : public sim::Observer {
   VideoMoment moment_;
   std::int64_t pictures_ = 0;
 };
+
+/// Films the run into video.mp4 of its folder.
+SpectatorMaker FilmTheRun(std::string title);
 
 }  // namespace alula::scenarios
