@@ -112,7 +112,7 @@ TEST(Command, InterruptLeavesNothingBehind) {
 }
 
 TEST(Command, CheckSaysGood) {
-  const CommandResult check = Alula({"check", "hover", "prescribed_flight"});
+  const CommandResult check = Alula({"check", "hover", "prescribed_flight", "q250", "courtyard"});
   EXPECT_EQ(check.exit_code, 0) << check.err;
   EXPECT_NE(check.out.find("hover.yaml: good"), std::string::npos);
 }
