@@ -7,7 +7,8 @@
 
 namespace alula::stack::features {
 
-Pyramid BuildPyramid(const Image& image, int width, int height, const StereoTrackerConfig& config) {
+Pyramid BuildPyramid(const Image& image, int width, int height, bool with_gradients,
+                     const StereoTrackerConfig& config) {
   if (image.format != PixelFormat::kGrey8 || image.width != width || image.height != height || !image.bytes) {
     throw base::InputError("stereo tracker: expected an 8-bit grey image of the calibrated size");
   }
@@ -15,8 +16,9 @@ Pyramid BuildPyramid(const Image& image, int width, int height, const StereoTrac
   const cv::Mat view(height, width, CV_8UC1, const_cast<std::uint8_t*>(image.Row(0)),
                      static_cast<std::size_t>(image.stride));
   Pyramid pyramid;
-  cv::buildOpticalFlowPyramid(view, pyramid.levels, cv::Size(config.window, config.window), config.levels, true,
-                              cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
+  pyramid.with_gradients = with_gradients;
+  cv::buildOpticalFlowPyramid(view, pyramid.levels, cv::Size(config.window, config.window), config.levels,
+                              with_gradients, cv::BORDER_REFLECT_101, cv::BORDER_CONSTANT, false);
   return pyramid;
 }
 

@@ -40,8 +40,8 @@ class StereoTracker::Impl {
   Impl(const StereoRig& rig, const StereoTrackerConfig& config) : rig_(rig), config_(config), matcher_(rig, config) {}
 
   std::vector<Track> Follow(const Image& left, const Image& right, const Transform& X_RC) {
-    left_ = BuildPyramid(left, rig_.left.width, rig_.left.height, config_);
-    right_ = BuildPyramid(right, rig_.right.width, rig_.right.height, config_);
+    left_ = BuildPyramid(left, rig_.left.width, rig_.left.height, true, config_);
+    right_ = BuildPyramid(right, rig_.right.width, rig_.right.height, false, config_);
     FollowInTime(X_RC.Inverse());
     MatchRight();
     std::erase_if(corners_, [this](const Corner& c) { return c.misses > config_.max_misses; });

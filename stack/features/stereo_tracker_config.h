@@ -7,7 +7,7 @@ namespace alula::stack::features {
 /// How corners are found and followed.
 struct StereoTrackerConfig {
   int cell = 40;                    // px: side of a grid cell, one corner each; 40 gives 192 cells at 640×480
-  int max_tracks = 180;             // more cost time and bring little
+  int max_tracks = 140;             // more cost time and bring little
   int fast_threshold = 5;           // grey levels; a dim wall has no more, pixel noise is about 1
   double min_corner_score = 4.0;    // smaller eigenvalue of the mean gradient matrix, (grey level/px)²; noise has 0.2
   int window = 15;                  // px: side of the KLT patch

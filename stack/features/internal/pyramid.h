@@ -9,15 +9,17 @@
 
 namespace alula::stack::features {
 
-/// An image with its coarser levels, each followed by its Scharr gradients (OpenCV's layout: image, gradient, …).
+/// An image with its coarser levels and, where asked for, the Scharr gradients of each (OpenCV's layout: image,
+/// gradient, image, …). Following from a pyramid with gradients is cheaper.
 struct Pyramid {
   std::vector<cv::Mat> levels;
-  const cv::Mat& image(int level) const { return levels[static_cast<std::size_t>(2 * level)]; }
+  bool with_gradients = false;
+  const cv::Mat& image(int level) const { return levels[static_cast<std::size_t>(with_gradients ? 2 * level : level)]; }
   const cv::Mat& gradient(int level) const { return levels[static_cast<std::size_t>(2 * level + 1)]; }
 };
 
 /// Throws base::InputError where the image is not 8-bit grey of width × height.
-Pyramid BuildPyramid(const Image& image, int width, int height, const StereoTrackerConfig& config);
+Pyramid BuildPyramid(const Image& image, int width, int height, bool with_gradients, const StereoTrackerConfig& config);
 
 /// Result of following one point.
 struct Flow {
