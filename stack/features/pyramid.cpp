@@ -32,12 +32,11 @@ std::vector<Flow> FollowPoints(const Pyramid& a, const Pyramid& b, const std::ve
   const double min_eigenvalue = 1e-4;
   std::vector<cv::Point2f> to = guess;
   std::vector<std::uint8_t> found;
-  std::vector<float> difference;
-  cv::calcOpticalFlowPyrLK(a.levels, b.levels, from, to, found, difference, window, top, stop,
+  cv::calcOpticalFlowPyrLK(a.levels, b.levels, from, to, found, cv::noArray(), window, top, stop,
                            cv::OPTFLOW_USE_INITIAL_FLOW, min_eigenvalue);
   for (std::size_t i = 0; i < from.size(); ++i) {
     flow[i].to = to[i];
-    flow[i].found = found[i] != 0 && difference[i] < config.max_appearance;
+    flow[i].found = found[i] != 0;
   }
   if (!check_back) return flow;
 

@@ -14,8 +14,9 @@ using base::Vec3;
 
 constexpr int kHalf = 4;  // of the searched patch at half resolution, px
 constexpr int kSide = 2 * kHalf + 1;
-constexpr double kUnique = 0.85;       // the best must be this much better than the next best elsewhere
-constexpr double kMaxMeanCost = 14.0;  // grey levels a pixel, mean removed
+constexpr double kUnique = 0.85;    // the best must be this much better than the next best elsewhere
+constexpr double kMaxMisfit = 0.6;  // of the patch's own contrast: eyes of unequal gain leave a part of it
+constexpr int kNoise = 3;           // grey levels a pixel that noise alone leaves
 using Patch = std::array<int, kSide * kSide>;
 
 /// A patch with its mean removed; false at the image's edge.
@@ -71,7 +72,9 @@ std::optional<Vec2> StereoMatcher::SearchEpipolarLine(const Pyramid& left, const
   for (const Step& step : line) {
     if ((step.pixel - best->pixel).norm() > 5.0) elsewhere = std::min(elsewhere, step.cost);
   }
-  const bool good = best->cost < kMaxMeanCost * kSide * kSide;
+  int contrast = 0;
+  for (const int value : wanted) contrast += std::abs(value);
+  const bool good = best->cost < kMaxMisfit * contrast + kNoise * kSide * kSide;
   if (!good || best->cost > kUnique * elsewhere) return std::nullopt;
   return best->pixel;
 }

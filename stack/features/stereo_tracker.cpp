@@ -26,8 +26,6 @@ void Describe(base::Description& d, StereoTrackerConfig& c) {
           {.unit = "px", .meaning = "there and back again", .min = 0.01, .max = 10});
   d.Field("max_epipolar_error", c.max_epipolar_error,
           {.unit = "px", .meaning = "from the right match to its epipolar line", .min = 0.1, .max = 20});
-  d.Field("max_appearance", c.max_appearance,
-          {.meaning = "mean absolute grey difference of matched patches", .min = 1, .max = 255});
   d.Field("min_stereo_depth", c.min_stereo_depth,
           {.unit = "m", .meaning = "nearest depth searched for", .min = 0.05, .max = 10});
   d.Field("border", c.border, {.unit = "px", .meaning = "kept free at the image's edge", .min = 5, .max = 100});

@@ -15,7 +15,6 @@ struct StereoTrackerConfig {
   int iterations = 12;              // of KLT a level
   double max_back_error = 0.6;      // px: there and back again
   double max_epipolar_error = 1.5;  // px between the right match and its epipolar line
-  double max_appearance = 20.0;     // mean absolute grey difference of matched patches
   double min_stereo_depth = 0.35;   // m: nearest depth searched for in the right image
   int border = 10;                  // px kept free at the edge
   int max_misses = 5;               // frames for which a lost corner is looked for again

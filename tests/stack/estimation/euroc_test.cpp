@@ -73,6 +73,7 @@ TEST(Euroc, StandsStillWhileRotorsSpinUp) {
     input.right = ReadPng(right);
     while (next < imu.size() && (next == 0 || imu[next - 1].time < input.stamp)) input.imu.push_back(imu[next++]);
     const FrameResult result = odometry.Process(input);
+
     if (!result.initialised) continue;
     if (!first) first = result.state.X_OB.p;
     ++frames;
