@@ -27,21 +27,22 @@ constexpr Duration kTakeover = base::Milliseconds(20);        // between a plan'
 constexpr Duration kIdleReplan = base::Milliseconds(400);     // without a new map a route is asked for this often
 constexpr Duration kRelaxation = base::Milliseconds(3500);    // how long recovery's concessions hold
 constexpr Duration kBlockedQuiet = base::Milliseconds(1500);  // between two reports of a blocked path
+constexpr double kRestRadius = 0.25;                          // m within which it counts as at rest
 constexpr double kProgress = 0.7;                             // m of flight after which recovery starts anew
 constexpr int kOpenAhead = 2;                                 // gates planned through ahead
 constexpr int kLooks = 6;                                     // in vain, before the list is believed
 constexpr double kBoundsReserve = 0.3;                        // m kept from the mission's bounds
 constexpr int kLeadPoints = 6;                                // of the present trajectory that a new one follows …
-constexpr Duration kLeadStep = base::Milliseconds(50);       // … this far apart
-constexpr double kFlownRadius = 0.12;                       // m about the present trajectory that counts as known-free
-constexpr double kReactionTime = 0.45;                        // s that a new route needs: map's turn and plan
+constexpr Duration kLeadStep = base::Milliseconds(50);        // … this far apart
+constexpr double kFlownRadius = 0.12;   // m about the present trajectory that counts as known-free
+constexpr double kReactionTime = 0.45;  // s that a new route needs: map's turn and plan
 
 }  // namespace
 
 /// What recovery concedes for a while.
 struct Concessions {
   double clearance_scale = 1.0;
-  double known_free_radius = -1.0;
+  double known_free_floor = -1.0;
   double max_speed = -1.0;
   bool ignore_openings = false;
   bool limit_climb = true;
@@ -269,7 +270,10 @@ class GateMission::Impl {
   }
 
   void WatchRest(const TrajectoryPoint& setpoint) {
-    if (setpoint.v_O.norm() > 0.08 || std::abs(setpoint.yaw_rate) > 0.15) rest_since_ = now();
+    if ((setpoint.p_O - rest_at_O_).norm() > kRestRadius || std::abs(setpoint.yaw_rate) > 0.15) {
+      rest_at_O_ = setpoint.p_O;
+      rest_since_ = now();
+    }
     if ((setpoint.p_O - recovered_at_O_).norm() > kProgress) recovery_ = 0;
   }
 
@@ -333,12 +337,12 @@ class GateMission::Impl {
     Concessions concessions;
     std::string remedy = "looking around";
     switch (recovery_++ % 4) {
-      case 0:
+      case 1:
         Scan(setpoint, 1.0);
         break;
-      case 1:
-        concessions.known_free_radius = 0.15;
-        concessions.clearance_scale = 0.85;
+      case 0:
+        concessions.known_free_floor = 0.01;
+        if (!unknown) concessions.clearance_scale = 0.85;
         concessions.max_speed = config_.creep_speed;
         remedy = "going on slowly with less margin";
         break;
@@ -346,7 +350,7 @@ class GateMission::Impl {
         Scan(setpoint, 3.2);
         break;
       default:
-        concessions.known_free_radius = 0.0;
+        concessions.known_free_floor = 0.0;
         concessions.clearance_scale = 0.7;
         concessions.max_speed = config_.creep_speed;
         concessions.ignore_openings = true;
@@ -356,7 +360,7 @@ class GateMission::Impl {
     }
     concessions_ = concessions;
     concessions_until_ = now() + kRelaxation;
-    legs_.clear();  // another way may be better than the last one
+    if (recovery_ > 1) legs_.clear();  // another way may be better than the last one
     Say(unknown ? "unknown_ahead" : "no_route", why + ": " + remedy);
   }
 
@@ -419,7 +423,7 @@ class GateMission::Impl {
     request.bounds_high_O = mission_.bounds_high - Vec3::Constant(kBoundsReserve);
     request.ground_O = ground_O_;
     request.clearance_scale = concessions_.clearance_scale;
-    request.known_free_radius = concessions_.known_free_radius;
+    request.known_free_floor = concessions_.known_free_floor;
     request.max_speed = concessions_.max_speed;
     request.limit_climb = concessions_.limit_climb;
     request.seed = seed_;
@@ -475,6 +479,7 @@ class GateMission::Impl {
   double ground_O_ = 0.0;
   Vec3 takeoff_O_ = Vec3::Zero();
   Vec3 last_p_O_ = Vec3::Zero();
+  Vec3 rest_at_O_ = Vec3::Zero();
   Vec3 recovered_at_O_ = Vec3::Zero();
 
   std::shared_ptr<const mapping::ClearanceField> field_;

@@ -16,7 +16,7 @@ struct GateMissionConfig {
   double freeze_distance = 1.1;  // m before the plane: the frame leaves the view, the fit is kept
   double view_distance = 2.2;    // m before a gate that is not measured well enough
   base::Duration look_time = base::Milliseconds(1500);      // at a view point before another is tried
-  base::Duration stuck_time = base::Milliseconds(1500);     // at rest without progress before recovery
+  base::Duration stuck_time = base::Milliseconds(1000);     // at rest without progress before recovery
   base::Duration lost_time = base::Milliseconds(2500);      // without healthy odometry before landing
   base::Duration setpoint_period = base::Milliseconds(10);  // 100 Hz
   base::Duration command_lifetime = base::Milliseconds(500);

@@ -125,6 +125,8 @@ void Describe(base::Description& d, GlobalPlannerConfig& c) {
   d.Field("height_min", c.height_min, {.unit = "m", .meaning = "lowest flight above the ground", .min = 0, .max = 100});
   d.Field("height_max", c.height_max,
           {.unit = "m", .meaning = "highest flight above the ground", .min = 0.5, .max = 200});
+  d.Field("climb_cost", c.climb_cost,
+          {.meaning = "length of a metre of height against one of ground, in the search", .min = 0.1, .max = 20});
   d.Field("start_cone", c.start_cone,
           {.meaning = "clearance regained per metre where start or goal is too near to things", .min = 0.05, .max = 1});
   d.Field("shortcut_rounds", c.shortcut_rounds, {.meaning = "random shortcuts tried", .min = 0, .max = 10000});

@@ -24,6 +24,7 @@ struct GlobalPlannerConfig {
   double max_climb_angle = 0.49;  // rad (28°): steeper flight leaves the camera's view
   double height_min = 0.45;       // m above the ground of the odometry frame's start
   double height_max = 6.0;        // m
+  double climb_cost = 2.0;        // length of a metre of height against a metre of ground: around rather than over
   double start_cone = 0.3;        // m of clearance regained per m of flight, where start or goal is too near to things
   int shortcut_rounds = 60;       // random shortcuts tried on the found path
 };

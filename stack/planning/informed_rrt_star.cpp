@@ -22,28 +22,30 @@ using base::Vec3;
 
 namespace {
 
-Vec3 PointOf(const ob::State* state) {
+/// The search space is stretched along z, so that its path lengths are the costs wanted.
+Vec3 PointOf(const ob::State* state, double climb_cost) {
   const auto* values = state->as<ob::RealVectorStateSpace::StateType>()->values;
-  return {values[0], values[1], values[2]};
+  return {values[0], values[1], values[2] / climb_cost};
 }
 
 class PointValidity : public ob::StateValidityChecker {
  public:
-  PointValidity(const ob::SpaceInformationPtr& space, const SegmentChecker& checker)
-      : ob::StateValidityChecker(space), checker_(checker) {}
-  bool isValid(const ob::State* state) const override { return checker_.PointFree(PointOf(state)); }
+  PointValidity(const ob::SpaceInformationPtr& space, const SegmentChecker& checker, double climb_cost)
+      : ob::StateValidityChecker(space), checker_(checker), climb_cost_(climb_cost) {}
+  bool isValid(const ob::State* state) const override { return checker_.PointFree(PointOf(state, climb_cost_)); }
 
  private:
   const SegmentChecker& checker_;
+  double climb_cost_;
 };
 
 /// The planner's edges are checked exactly as the flown path is (OMPL's own check steps by 1 % of the space).
 class SegmentValidity : public ob::MotionValidator {
  public:
-  SegmentValidity(const ob::SpaceInformationPtr& space, const SegmentChecker& checker)
-      : ob::MotionValidator(space), checker_(checker) {}
+  SegmentValidity(const ob::SpaceInformationPtr& space, const SegmentChecker& checker, double climb_cost)
+      : ob::MotionValidator(space), checker_(checker), climb_cost_(climb_cost) {}
   bool checkMotion(const ob::State* a, const ob::State* b) const override {
-    return checker_.SegmentFree(PointOf(a), PointOf(b));
+    return checker_.SegmentFree(PointOf(a, climb_cost_), PointOf(b, climb_cost_));
   }
   bool checkMotion(const ob::State* a, const ob::State* b, std::pair<ob::State*, double>& last_valid) const override {
     if (checkMotion(a, b)) return true;
@@ -53,6 +55,7 @@ class SegmentValidity : public ob::MotionValidator {
 
  private:
   const SegmentChecker& checker_;
+  double climb_cost_;
 };
 
 std::mutex& OmplMutex() {
@@ -72,21 +75,22 @@ std::optional<std::vector<Vec3>> SearchInformedRrtStar(const PlanRequest& reques
 
   auto space = std::make_shared<ob::RealVectorStateSpace>(3);
   ob::RealVectorBounds bounds(3);
+  const Vec3 scale(1.0, 1.0, config.climb_cost);
   for (unsigned i = 0; i < 3; ++i) {
-    bounds.setLow(i, checker.low()[i] - 1e-6);
-    bounds.setHigh(i, checker.high()[i] + 1e-6);
+    bounds.setLow(i, checker.low()[i] * scale[i] - 1e-6);
+    bounds.setHigh(i, checker.high()[i] * scale[i] + 1e-6);
   }
   space->setBounds(bounds);
   auto information = std::make_shared<ob::SpaceInformation>(space);
-  information->setStateValidityChecker(std::make_shared<PointValidity>(information, checker));
-  information->setMotionValidator(std::make_shared<SegmentValidity>(information, checker));
+  information->setStateValidityChecker(std::make_shared<PointValidity>(information, checker, config.climb_cost));
+  information->setMotionValidator(std::make_shared<SegmentValidity>(information, checker, config.climb_cost));
   information->setup();
 
   ob::ScopedState<ob::RealVectorStateSpace> start(space);
   ob::ScopedState<ob::RealVectorStateSpace> goal(space);
   for (unsigned i = 0; i < 3; ++i) {
-    start[i] = request.start_O[i];
-    goal[i] = request.goal_O[i];
+    start[i] = request.start_O[i] * scale[i];
+    goal[i] = request.goal_O[i] * scale[i];
   }
   auto problem = std::make_shared<ob::ProblemDefinition>(information);
   problem->setStartAndGoalStates(start, goal, 1e-6);
@@ -102,7 +106,7 @@ std::optional<std::vector<Vec3>> SearchInformedRrtStar(const PlanRequest& reques
   if (status != ob::PlannerStatus::EXACT_SOLUTION) return std::nullopt;
   auto* path = problem->getSolutionPath()->as<og::PathGeometric>();
   std::vector<Vec3> points;
-  for (ob::State* const state : path->getStates()) points.push_back(PointOf(state));
+  for (ob::State* const state : path->getStates()) points.push_back(PointOf(state, config.climb_cost));
   return points;
 }
 

@@ -16,7 +16,7 @@ namespace {
 constexpr double kOnAxis = 0.35;         // m off the axis within which a start counts as in the passage already
 constexpr double kJoinAxis = 0.6;        // m of flight in which such a start comes back to the axis
 constexpr double kStopMargin = 0.08;     // m kept between the stop and the end of known-free space
-constexpr double kOwnSpace = 0.1;         // m about the start: where the vehicle is, it is free
+constexpr double kOwnSpace = 0.1;        // m about the start: where the vehicle is, it is free
 constexpr double kOpeningReserve = 0.1;  // m by which closed openings are larger than they are
 
 Vec3 AxisPoint(const Passage& passage, double x) { return passage.X_OG * Vec3(x, 0, 0); }
@@ -196,9 +196,15 @@ class RouteBuilder {
       stop = curve.Nearest(*stop_at_point_);
       result_.end = RouteEnd::kClosedGate;
     }
-    const double radius = request_.known_free_radius >= 0.0 ? request_.known_free_radius : config_.known_free_radius;
+    const double floor = request_.known_free_floor >= 0.0 ? request_.known_free_floor : config_.known_free_floor;
+    barely_seen_.clear();
     for (double s = 0.0; s < stop; s += 0.05) {
-      if (KnownFree(curve.Position(s), radius)) continue;
+      const Vec3 p = curve.Position(s);
+      if (KnownFree(p, config_.known_free_radius)) continue;
+      if (KnownFree(p, floor)) {
+        barely_seen_.push_back({s - 0.05, s + 0.05, config_.barely_seen_speed});
+        continue;
+      }
       result_.end = RouteEnd::kUnknownSpace;
       return std::max(0.0, s - 0.05 - kStopMargin);
     }
@@ -206,7 +212,7 @@ class RouteBuilder {
   }
 
   std::vector<SpeedZone> Zones(const Curve& curve) const {
-    std::vector<SpeedZone> zones;
+    std::vector<SpeedZone> zones = barely_seen_;
     for (const Passage& passage : request_.passages) {
       if (passage.closed) continue;
       const double from = curve.Nearest(AxisPoint(passage, -config_.passage_before));
@@ -262,6 +268,7 @@ class RouteBuilder {
   Vec3 start_O_ = Vec3::Zero();
   double start_clearance_ = 0.0;
   std::optional<Vec3> stop_at_point_;
+  std::vector<SpeedZone> barely_seen_;
 };
 
 }  // namespace
@@ -304,7 +311,14 @@ void Describe(base::Description& d, RouteConfig& c) {
   d.Field("comfortable_clearance", c.comfortable_clearance,
           {.unit = "m", .meaning = "nearer to obstacles, smoothing pushes away", .min = 0.0, .max = 3});
   d.Field("known_free_radius", c.known_free_radius,
-          {.unit = "m", .meaning = "ball that must have been seen free wherever it flies", .min = 0.0, .max = 2});
+          {.unit = "m", .meaning = "ball that should have been seen free wherever it flies", .min = 0.0, .max = 2});
+  d.Field("known_free_floor", c.known_free_floor,
+          {.unit = "m",
+           .meaning = "ball that must have been seen free: it stops before where it was not",
+           .min = 0.0,
+           .max = 2});
+  d.Field("barely_seen_speed", c.barely_seen_speed,
+          {.unit = "m/s", .meaning = "where only the smaller ball was seen free", .min = 0.1, .max = 10});
   d.Field("passage_before", c.passage_before,
           {.unit = "m", .meaning = "straight flight before a gate", .min = 0.3, .max = 5});
   d.Field("passage_after", c.passage_after,

@@ -37,7 +37,9 @@ struct RouteConfig {
   double flown_clearance = 0.29;       // m, of the smoothed curve
   double clearance_floor = 0.24;       // m, of relaxed starts and goals, and of the trajectory being flown
   double comfortable_clearance = 0.7;  // m; nearer than this, smoothing pushes the curve away where it can
-  double known_free_radius = 0.25;     // m, ball that must have been seen free wherever the vehicle flies
+  double known_free_radius = 0.25;     // m, ball that should have been seen free wherever the vehicle flies
+  double known_free_floor = 0.06;      // m, ball that must have been: it stops before where even this is unknown
+  double barely_seen_speed = 1.2;      // m/s between the two (specks that stereo left out beside the path)
   double passage_before = 1.2;         // m of straight flight before a gate …
   double passage_after = 1.2;          // … and after it: the frame leaves the view there
   double passage_exempt = 0.7;  // m to each side of the opening's plane where the gate's fit, not the map, decides
@@ -57,8 +59,8 @@ struct Leg {
 
 struct RouteRequest {
   std::shared_ptr<const mapping::ClearanceField> field;
-  base::Time start_time;               // when the new trajectory takes over
-  TrajectoryPoint start;               // what the present one does then
+  base::Time start_time;  // when the new trajectory takes over
+  TrajectoryPoint start;  // what the present one does then
   /// Where the present trajectory goes next (some tenths of a second from `start` on): the new one begins by going the
   /// same way, or frequent replanning would keep the vehicle from ever turning.
   std::vector<base::Vec3> lead_O;
@@ -72,8 +74,8 @@ struct RouteRequest {
   double ground_O = 0.0;
   // What recovery may relax.
   double clearance_scale = 1.0;
-  double known_free_radius = -1.0;  // m; negative: the configured one
-  double max_speed = -1.0;          // m/s; negative: the configured one
+  double known_free_floor = -1.0;  // m; negative: the configured one
+  double max_speed = -1.0;         // m/s; negative: the configured one
   bool limit_climb = true;
   std::uint64_t seed = 0;
   std::uint64_t number = 0;

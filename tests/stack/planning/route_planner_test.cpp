@@ -86,7 +86,7 @@ TEST(RoutePlanner, StopsInsideKnownFreeSpace) {
   ASSERT_TRUE(result.ok) << result.reason;
   EXPECT_EQ(result.end, RouteEnd::kUnknownSpace);
   const double stop = result.trajectory->end_point().x();
-  EXPECT_LT(stop, 3.0 - config.known_free_radius + 0.01);
+  EXPECT_LT(stop, 3.0 - config.known_free_floor);
   EXPECT_GT(stop, 2.4);
   EXPECT_GT(result.length, 9.0);  // the plan itself goes on, optimistically
 }
