@@ -7,6 +7,7 @@ namespace alula::scenarios {
 namespace {
 
 constexpr base::Rate kPictureRate{30, 1};
+constexpr std::size_t kImagesKept = 8;  // the stack shows features of an image some 50 ms old
 
 std::vector<render::Mover> Movers(const vehicles::VehicleBody& body) {
   std::vector<render::Mover> movers;
@@ -35,14 +36,25 @@ void VideoRecorder::Remember(const sim::StepView& step) {
   if (left_camera_) {
     for (const stack::Measurement& m : step.measurements) {
       if (m.sensor != *left_camera_) continue;
-      if (const auto* image = std::get_if<stack::Image>(&m.data)) moment_.left = *image;
+      if (const auto* image = std::get_if<stack::Image>(&m.data)) left_images_.emplace_back(m.seq, *image);
     }
+    if (left_images_.size() > kImagesKept) left_images_.pop_front();
+    if (!left_images_.empty()) moment_.left = ImageOf(moment_.view.get());
   }
   if (step.output == nullptr) return;
   if (step.output->estimate) moment_.X_MB = step.output->estimate->X_MO * step.output->estimate->X_OB;
   if (step.output->view) moment_.view = step.output->view;
   if (!step.output->events.empty()) moment_.caption = step.output->events.back().text;
   moment_.next_gate = step.output->next_gate;
+}
+
+const stack::Image& VideoRecorder::ImageOf(const stack::StackView* view) const {
+  if (view != nullptr) {
+    for (const auto& [seq, image] : left_images_) {
+      if (seq == view->image_seq) return image;
+    }
+  }
+  return left_images_.back().second;
 }
 
 std::optional<std::string> VideoRecorder::Observe(const sim::StepView& step) {

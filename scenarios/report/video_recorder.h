@@ -1,9 +1,11 @@
 #pragma once
 
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "scenarios/report/mp4_writer.h"
 #include "scenarios/report/video_frame.h"
@@ -28,8 +30,11 @@ class VideoRecorder : public Spectator {
 
  private:
   void Remember(const sim::StepView& step);
+  /// The image whose features the stack shows, or the newest one.
+  const stack::Image& ImageOf(const stack::StackView* view) const;
 
   std::optional<stack::SensorId> left_camera_;
+  std::deque<std::pair<std::uint32_t, stack::Image>> left_images_;
   VideoComposer composer_;
   Mp4Writer writer_;
   VideoMoment moment_;
