@@ -22,7 +22,7 @@ class HoldingVehicle : public vehicles::VehicleModel {
   const vehicles::VehicleBody& body() const override { return body_; }
   vehicles::Wrench Step(const vehicles::BodyState&, const vehicles::ActuatorCommand&, const base::Vec3&,
                         base::Duration) override {
-    return {.force_W = {0, 0, lift}, .torque_W = {}};
+    return {.force_W = {0, 0, lift}, .torque_W = base::Vec3::Zero()};
   }
   stack::BatterySample Battery() const override { return {16.0, 1.0}; }
   std::vector<vehicles::TelemetryValue> Telemetry() const override { return {}; }

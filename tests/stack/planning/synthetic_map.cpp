@@ -77,7 +77,7 @@ void SyntheticMap::RevealBox(const Vec3& low_O, const Vec3& high_O) {
 }
 
 void SyntheticMap::Look(const base::Transform& X_OB, double range) {
-  constexpr double kRayStep = 0.017;  // rad: 8 cm at 4.5 m
+  constexpr double kRayStep = 0.021;  // rad: 9 cm at 4.5 m
   for (double azimuth = -0.69; azimuth <= 0.69; azimuth += kRayStep) {
     for (double elevation = -0.55; elevation <= 0.55; elevation += kRayStep) {
       const Vec3 ray = X_OB.q * Vec3(1.0, std::tan(azimuth), std::tan(elevation)).normalized();
