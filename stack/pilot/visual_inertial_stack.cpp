@@ -1,5 +1,7 @@
 #include "stack/pilot/visual_inertial_stack.h"
 
+#include <array>
+#include <chrono>
 #include <deque>
 #include <map>
 #include <optional>
@@ -30,7 +32,15 @@ struct StereoFrame {
   std::optional<Image> left, right;
 };
 
+/// Wall time of the parts of a mapping job, ms; for profiling only.
+struct MapTiming {
+  std::array<double, 4> ms{};  // depth, insert, gates, snapshot
+};
+constexpr std::array<const char*, 4> kMapParts{"mapping/depth", "mapping/insert", "mapping/gates", "mapping/snapshot"};
+
 struct MapResult {
+  MapTiming timing;
+
   std::shared_ptr<const mapping::ClearanceField> field;
   std::vector<std::optional<perception::GateObservation>> gates;
   std::vector<Eigen::Vector3f> occupied_O;
@@ -55,11 +65,19 @@ struct Workshop {
   }
 
   MapResult Map(const Image& left, const Image& right, const Transform& X_OB, const Transform& X_MO) {
+    MapResult result;
+    auto last = std::chrono::steady_clock::now();
+    const auto lap = [&](std::size_t part) {
+      const auto time = std::chrono::steady_clock::now();
+      result.timing.ms[part] = std::chrono::duration<double, std::milli>(time - last).count();
+      last = time;
+    };
     const mapping::DepthMap view = depth.Compute(left, right);
+    lap(0);
     const Transform X_OC = X_OB * view.X_BC;
     map.Insert(view, X_OC);
+    lap(1);
     gates.Add(view, X_OC, X_MO);
-    MapResult result;
     for (int i = 0; i < gates.size(); ++i) {
       result.gates.push_back(gates.Best(i));
       const auto& gate = result.gates.back();
@@ -67,8 +85,10 @@ struct Workshop {
       const double half = 0.5 * gate->opening - kOpeningMargin;
       if (half > 0.0) map.DeclareFreeBox(gate->X_OG, Vec3(kOpeningDepth, half, half));
     }
+    lap(2);
     result.field = map.Snapshot();
     result.occupied_O = map.OccupiedCells();
+    lap(3);
     return result;
   }
 
@@ -116,6 +136,9 @@ class VisualInertialStack : public NavigationStack {
     const auto part = [&](const char* name, double ms) {
       stages.push_back({.name = name, .wall_ms = ms, .calls = timing_.frames});
     };
+    for (std::size_t i = 0; i < kMapParts.size(); ++i) {
+      stages.push_back({.name = kMapParts[i], .wall_ms = map_timing_.ms[i], .calls = maps_});
+    }
     part("odometry/track", timing_.track);
     part("odometry/detect", timing_.detect);
     part("odometry/solve", timing_.solve);
@@ -189,6 +212,8 @@ class VisualInertialStack : public NavigationStack {
           [this, now](MapResult result) {
             mission_.OnMap(now + config_.latency.mapping, result.field, result.gates);
             occupied_O_ = std::move(result.occupied_O);
+            for (std::size_t i = 0; i < kMapParts.size(); ++i) map_timing_.ms[i] += result.timing.ms[i];
+            ++maps_;
           });
     }
     auto view = std::make_shared<StackView>();
@@ -264,6 +289,8 @@ class VisualInertialStack : public NavigationStack {
   std::vector<Eigen::Vector3f> occupied_O_;
   std::shared_ptr<const StackView> view_;
   estimation::OdometryTiming timing_;
+  MapTiming map_timing_;
+  std::uint64_t maps_ = 0;
 
   JobQueue jobs_;  // last: its jobs use all of the above
 };
