@@ -13,6 +13,9 @@ struct Figures {
   std::vector<std::pair<std::string, double>> values;
   /// Plain lines for a person, printed as they come.
   void Add(std::string key, double value);
+  /// A figure that breaks a promise of the design: printed, and the verb exits with 1.
+  void Fail(const std::string& what);
+  bool failed = false;
 };
 
 struct Benchmark {

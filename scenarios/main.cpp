@@ -26,7 +26,7 @@ namespace {
 
 using internal::CommandLine;
 
-constexpr int kBadInput = 2, kFault = 3, kInterrupted = 130;
+constexpr int kFailed = 1, kBadInput = 2, kFault = 3, kInterrupted = 130;
 
 std::atomic<bool> interrupted{false};
 
@@ -109,7 +109,8 @@ int Bench(const CommandLine& line) {
     const bool wanted = std::find(line.names.begin(), line.names.end(), benchmark.name) != line.names.end();
     if (line.names.empty() || wanted) benchmark.run(figures);
   }
-  if (line.json_file.empty()) return 0;
+  const int exit_code = figures.failed ? kFailed : 0;
+  if (line.json_file.empty()) return exit_code;
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   for (const auto& [key, value] : figures.values) json[key] = value;
   const std::filesystem::path partial = line.json_file.string() + ".partial";
@@ -119,7 +120,7 @@ int Bench(const CommandLine& line) {
   std::error_code error;
   if (file) std::filesystem::rename(partial, line.json_file, error);
   if (!file || error) throw base::InputError("--json: cannot write " + line.json_file.string());
-  return 0;
+  return exit_code;
 }
 
 int Main(int argc, char** argv) {

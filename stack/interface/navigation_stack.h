@@ -54,12 +54,12 @@ struct StackView {
 
 enum class StackState : std::uint8_t { kInitialising, kReady, kFlying, kDone, kFailed };
 
-/// Counters of skipped and late jobs, and of wall time by stage (which never enters a digest).
+/// Time spent in one stage of a run; it is reported and never enters a digest.
 struct StageTime {
   std::string name;
-  double wall_ms = 0.0;
+  double wall_ms = 0.0;  // in total
   std::uint64_t calls = 0;
-  double p99_ms = 0.0;
+  double p99_ms = 0.0;  // processor time of a call, 99th percentile; 0 where calls are not told apart
 };
 
 struct StackOutput {

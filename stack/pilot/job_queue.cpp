@@ -3,8 +3,20 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <ctime>
 
 namespace alula::stack::pilot {
+
+namespace {
+
+/// Processor time of this thread, ms: what a busy machine does not change.
+double CpuNow() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+}  // namespace
 
 JobQueue::JobQueue(int workers) {
   for (int i = 0; i < workers; ++i) threads_.emplace_back([this] { WorkerLoop(); });
@@ -21,12 +33,14 @@ JobQueue::~JobQueue() {
 
 void JobQueue::Execute(Job& job) {
   const auto begin = std::chrono::steady_clock::now();
+  const double cpu_begin = CpuNow();
   try {
     job.work();
   } catch (...) {
     job.error = std::current_exception();
   }
   job.work = nullptr;  // what the job captured is released where it ran
+  job.cpu_ms = CpuNow() - cpu_begin;
   job.wall_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
 }
 
@@ -93,7 +107,9 @@ void JobQueue::Join(base::Time now) {
       job_finished_.wait(lock, [&job] { return job->finished; });
     }
     busy_[job->stage] = false;
-    wall_ms_[job->stage].push_back(static_cast<float>(job->wall_ms));
+    Spent& spent = spent_[job->stage];
+    spent.wall_ms += job->wall_ms;
+    spent.cpu_ms.push_back(static_cast<float>(job->cpu_ms));
     if (job->error) std::rethrow_exception(job->error);
     job->join();
   }
@@ -106,11 +122,10 @@ std::uint64_t JobQueue::skipped(const std::string& stage) const {
 
 std::vector<StageTime> JobQueue::Timing() const {
   std::vector<StageTime> result;
-  for (const auto& [stage, samples] : wall_ms_) {
-    StageTime time{.name = stage, .calls = samples.size()};
-    std::vector<float> sorted = samples;
+  for (const auto& [stage, spent] : spent_) {
+    StageTime time{.name = stage, .wall_ms = spent.wall_ms, .calls = spent.cpu_ms.size()};
+    std::vector<float> sorted = spent.cpu_ms;
     std::sort(sorted.begin(), sorted.end());
-    for (const float ms : sorted) time.wall_ms += static_cast<double>(ms);
     if (!sorted.empty()) {
       const auto rank = static_cast<std::size_t>(std::ceil(0.99 * static_cast<double>(sorted.size())));
       time.p99_ms = static_cast<double>(sorted[std::max<std::size_t>(rank, 1) - 1]);

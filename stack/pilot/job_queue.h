@@ -58,7 +58,7 @@ class JobQueue {
   /// Number of the next job: part of the seed of random work ("planner/17").
   std::uint64_t next_number() const { return next_number_; }
   std::uint64_t skipped(const std::string& stage) const;
-  /// Wall time, calls and 99th percentile by stage, in the order of the stages' names.
+  /// Wall time, calls and the 99th percentile of a call's processor time by stage, in the order of the stages' names.
   std::vector<StageTime> Timing() const;
 
  private:
@@ -72,6 +72,7 @@ class JobQueue {
     bool finished = false;
     std::exception_ptr error;
     double wall_ms = 0.0;
+    double cpu_ms = 0.0;
   };
   struct Strand {
     std::deque<std::shared_ptr<Job>> waiting;
@@ -86,7 +87,11 @@ class JobQueue {
   std::map<std::pair<base::Time, std::uint64_t>, std::shared_ptr<Job>> pending_;  // by (due time, job number)
   std::map<std::string, bool> busy_;
   std::map<std::string, std::uint64_t> skipped_;
-  std::map<std::string, std::vector<float>> wall_ms_;
+  struct Spent {
+    double wall_ms = 0.0;
+    std::vector<float> cpu_ms;  // of each call
+  };
+  std::map<std::string, Spent> spent_;
   std::uint64_t next_number_ = 0;
 
   mutable std::mutex mutex_;  // guards what follows, and Job::finished
