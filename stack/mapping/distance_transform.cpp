@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 namespace alula::stack::mapping::internal {
 
@@ -9,12 +10,37 @@ namespace {
 
 constexpr std::int16_t kFar = 16000;  // above any squared distance that is kept, and twice it still fits
 
-/// target[k] = min(target[k], source[k] + offset).
-void LowerTo(std::int16_t* target, const std::int16_t* source, std::int16_t offset, int n) {
+/// target[k] = min(target[k], source[k] + offset); the largest that is left.
+std::int16_t LowerTo(std::int16_t* target, const std::int16_t* source, std::int16_t offset, int n) {
+  std::int16_t largest = 0;
   for (int k = 0; k < n; ++k) {
     const std::int16_t candidate = static_cast<std::int16_t>(source[k] + offset);
     target[k] = candidate < target[k] ? candidate : target[k];
+    largest = target[k] > largest ? target[k] : largest;
   }
+  return largest;
+}
+
+/// target = the minimum over the rows about `centre` of row + offset²: nearest first, until no farther row can lower
+/// anything. `row(s)` is null where there is no obstacle; false when all were.
+template <typename Row>
+bool LowerToNeighbours(const std::vector<std::int16_t>& along, int centre, int count, Row row, int n,
+                       std::int16_t* target) {
+  const int reach = static_cast<int>(along.size()) - 1;
+  std::int16_t largest = kFar;
+  bool any = false;
+  const auto lower_to = [&](int s, int d) {
+    const std::int16_t* source = s >= 0 && s < count ? row(s) : nullptr;
+    if (source == nullptr) return;
+    largest = LowerTo(target, source, along[d], n);
+    any = true;
+  };
+  lower_to(centre, 0);
+  for (int d = 1; d <= reach && along[d] < largest; ++d) {
+    lower_to(centre - d, d);
+    lower_to(centre + d, d);
+  }
+  return any;
 }
 
 }  // namespace
@@ -47,16 +73,21 @@ void DistanceTransform::Columns(const CellBox& box) {
   const std::size_t columns = static_cast<std::size_t>(box.Length(0)) * box.Length(1);
   first_.resize(columns * n);
   any_first_.assign(columns, 0);
+  const std::size_t length = static_cast<std::size_t>(n);
   for (std::size_t c = 0; c < columns; ++c) {
-    const std::uint8_t* obstacle = is_obstacle_.data() + c * n;
-    std::int16_t* row = first_.data() + c * n;
+    const std::uint8_t* obstacle = is_obstacle_.data() + c * length;
+    if (std::memchr(obstacle, 1, length) == nullptr) continue;
+    any_first_[c] = 1;
+    std::int16_t* row = first_.data() + c * length;
+    if (std::memchr(obstacle, 0, length) == nullptr) {
+      std::fill(row, row + length, std::int16_t{0});
+      continue;
+    }
     int since = reach_ + 1;
     for (int k = 0; k < n; ++k) {
       since = obstacle[k] ? 0 : since + 1;
       row[k] = since <= reach_ ? along_[since] : kFar;
     }
-    if (since > n + reach_) continue;  // no obstacle in the column
-    any_first_[c] = 1;
     since = reach_ + 1;
     for (int k = n - 1; k >= 0; --k) {
       since = obstacle[k] ? 0 : since + 1;
@@ -71,17 +102,15 @@ void DistanceTransform::AcrossRows(const CellBox& from, const CellBox& to) {
   const int rows_to = to.Length(1);
   const int shift = to.low[1] - from.low[1];
   second_.assign(static_cast<std::size_t>(from.Length(0)) * rows_to * n, kFar);
-  any_second_.assign(static_cast<std::size_t>(from.Length(0)) * rows_to, 0);
+  any_second_.resize(static_cast<std::size_t>(from.Length(0)) * rows_to);
   for (int i = 0; i < from.Length(0); ++i) {
-    for (int j = 0; j < rows_from; ++j) {
-      const std::size_t source = static_cast<std::size_t>(i) * rows_from + j;
-      if (!any_first_[source]) continue;
-      const int last = std::min(rows_to - 1, j - shift + reach_);
-      for (int t = std::max(0, j - shift - reach_); t <= last; ++t) {
-        const std::size_t target = static_cast<std::size_t>(i) * rows_to + t;
-        any_second_[target] = 1;
-        LowerTo(second_.data() + target * n, first_.data() + source * n, along_[std::abs(t + shift - j)], n);
-      }
+    const auto row = [&](int j) -> const std::int16_t* {
+      const std::size_t at = static_cast<std::size_t>(i) * rows_from + j;
+      return any_first_[at] ? first_.data() + at * n : nullptr;
+    };
+    for (int t = 0; t < rows_to; ++t) {
+      const std::size_t at = static_cast<std::size_t>(i) * rows_to + t;
+      any_second_[at] = LowerToNeighbours(along_, t + shift, rows_from, row, n, second_.data() + at * n);
     }
   }
 }
@@ -93,14 +122,13 @@ void DistanceTransform::AcrossSlices(const CellBox& from, const CellBox& to, std
   const int skip = to.low[2] - from.low[2];
   slice_.resize(static_cast<std::size_t>(n));
   for (int i = 0; i < to.Length(0); ++i) {
-    const int last = std::min(from.Length(0) - 1, i + shift + reach_);
     for (int j = 0; j < rows; ++j) {
+      const auto row = [&](int s) -> const std::int16_t* {
+        const std::size_t at = static_cast<std::size_t>(s) * rows + j;
+        return any_second_[at] ? second_.data() + at * n : nullptr;
+      };
       std::fill(slice_.begin(), slice_.end(), kFar);
-      for (int s = std::max(0, i + shift - reach_); s <= last; ++s) {
-        const std::size_t source = static_cast<std::size_t>(s) * rows + j;
-        if (!any_second_[source]) continue;
-        LowerTo(slice_.data(), second_.data() + source * n, along_[std::abs(s - shift - i)], n);
-      }
+      LowerToNeighbours(along_, i + shift, from.Length(0), row, n, slice_.data());
       std::uint8_t* target = out.data() + shape_.Index(to.low[0] + i, to.low[1] + j, to.low[2]);
       for (int k = 0; k < to.Length(2); ++k) {
         const std::int16_t squared = slice_[skip + k];

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <ostream>
 
@@ -79,7 +80,8 @@ struct OccupancyMap::Impl {
   void Raise(std::size_t cell, double by, double limit);
   void Lower(std::size_t cell, double by, double limit);
   void Classify(std::size_t cell);
-  void UpdateDistances();
+  void Changed();
+  const ClearanceField& UpToDate();
 
   OccupancyMapConfig config;
   std::vector<std::int16_t> log_odds;  // kUnit
@@ -125,15 +127,20 @@ void OccupancyMap::Impl::Classify(std::size_t cell) {
   if ((now == CellState::kFree) != (before == CellState::kFree)) free_changed.Add(i, j, k);
 }
 
-void OccupancyMap::Impl::UpdateDistances() {
+void OccupancyMap::Impl::Changed() {
   ++field.revision;
+  snapshot.reset();
+}
+
+/// The distances are computed when they are asked for, once for all changes since.
+const ClearanceField& OccupancyMap::Impl::UpToDate() {
   transform.Update(
       state, occupied_changed, [](CellState s) { return s == CellState::kOccupied; }, field.to_occupied);
   transform.Update(
       state, free_changed, [](CellState s) { return s != CellState::kFree; }, field.to_not_free);
   occupied_changed = {};
   free_changed = {};
-  snapshot.reset();
+  return field;
 }
 
 OccupancyMap::OccupancyMap(const OccupancyMapConfig& config, const base::Vec3& low_O, const base::Vec3& high_O)
@@ -152,7 +159,7 @@ void OccupancyMap::Insert(const DepthMap& depth, const base::Transform& X_OC) {
     const double limit = std::max(c.max_log_odds * sharpness, c.occupied_from + 0.1);
     impl_->Raise(hit.cell, c.hit * sharpness, limit);
   }
-  impl_->UpdateDistances();
+  impl_->Changed();
 }
 
 void OccupancyMap::DeclareFree(const base::Vec3& base_O, double radius, double height) {
@@ -169,7 +176,7 @@ void OccupancyMap::DeclareFree(const base::Vec3& base_O, double radius, double h
       }
     }
   }
-  impl_->UpdateDistances();
+  impl_->Changed();
 }
 
 void OccupancyMap::DeclareFreeBox(const base::Transform& X_OG, const base::Vec3& half_extents) {
@@ -188,12 +195,14 @@ void OccupancyMap::DeclareFreeBox(const base::Transform& X_OG, const base::Vec3&
       }
     }
   }
-  impl_->UpdateDistances();
+  impl_->Changed();
 }
 
-CellState OccupancyMap::State(const base::Vec3& p_O) const { return impl_->field.State(p_O); }
-double OccupancyMap::Clearance(const base::Vec3& p_O) const { return impl_->field.Clearance(p_O); }
-double OccupancyMap::KnownFreeClearance(const base::Vec3& p_O) const { return impl_->field.KnownFreeClearance(p_O); }
+CellState OccupancyMap::State(const base::Vec3& p_O) const { return impl_->UpToDate().State(p_O); }
+double OccupancyMap::Clearance(const base::Vec3& p_O) const { return impl_->UpToDate().Clearance(p_O); }
+double OccupancyMap::KnownFreeClearance(const base::Vec3& p_O) const {
+  return impl_->UpToDate().KnownFreeClearance(p_O);
+}
 
 double OccupancyMap::LogOdds(const base::Vec3& p_O) const {
   const auto [i, j, k] = shape().CellOf(p_O);
@@ -203,18 +212,24 @@ double OccupancyMap::LogOdds(const base::Vec3& p_O) const {
 }
 
 std::shared_ptr<const ClearanceField> OccupancyMap::Snapshot() const {
-  if (!impl_->snapshot) impl_->snapshot = std::make_shared<const ClearanceField>(impl_->field);
+  if (!impl_->snapshot) impl_->snapshot = std::make_shared<const ClearanceField>(impl_->UpToDate());
   return impl_->snapshot;
 }
 
 std::vector<Eigen::Vector3f> OccupancyMap::OccupiedCells() const {
   std::vector<Eigen::Vector3f> cells;
   const GridShape& grid = shape();
-  std::size_t at = 0;
+  const std::size_t column = static_cast<std::size_t>(grid.size[2]);
+  const CellState* cell = impl_->state.data();
   for (int i = 0; i < grid.size[0]; ++i) {
-    for (int j = 0; j < grid.size[1]; ++j) {
-      for (int k = 0; k < grid.size[2]; ++k, ++at) {
-        if (impl_->state[at] == CellState::kOccupied) cells.push_back(grid.Centre(i, j, k).cast<float>());
+    for (int j = 0; j < grid.size[1]; ++j, cell += column) {
+      // Most columns hold none, and memchr looks at many cells at once.
+      const void* found = std::memchr(cell, static_cast<int>(CellState::kOccupied), column);
+      while (found != nullptr) {
+        const std::ptrdiff_t k = static_cast<const CellState*>(found) - cell;
+        cells.push_back(grid.Centre(i, j, static_cast<int>(k)).cast<float>());
+        found =
+            std::memchr(cell + k + 1, static_cast<int>(CellState::kOccupied), column - static_cast<std::size_t>(k) - 1);
       }
     }
   }
@@ -224,6 +239,6 @@ std::vector<Eigen::Vector3f> OccupancyMap::OccupiedCells() const {
 std::uint64_t OccupancyMap::revision() const { return impl_->field.revision; }
 const GridShape& OccupancyMap::shape() const { return impl_->field.shape; }
 const OccupancyMapConfig& OccupancyMap::config() const { return impl_->config; }
-void OccupancyMap::Write(std::ostream& out) const { internal::WriteOctoMap(impl_->field, out); }
+void OccupancyMap::Write(std::ostream& out) const { internal::WriteOctoMap(impl_->UpToDate(), out); }
 
 }  // namespace alula::stack::mapping

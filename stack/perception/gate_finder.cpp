@@ -149,20 +149,28 @@ bool GateFinder::Impl::Near(const GatePose& pose, const GatePose& hint) const {
 
 void GateFinder::Impl::Fit(Gate& gate, const GatePose& hint) const {
   const GateFit fit(config, gate.hint.opening);
-  std::vector<std::pair<GatePose, bool>> starts;  // and whether tracked
-  if (gate.pose) starts.emplace_back(*gate.pose, true);
+  const auto better = [&](const GateFit::Result& one, const std::optional<GateFit::Result>& best) {
+    return Near(one.pose, hint) && (!best || one.quality.score > best->quality.score);
+  };
+  std::optional<GateFit::Result> best;
+  if (gate.pose) {
+    const GateFit::Result tracked = fit.Refine(gate.views, *gate.pose, hint, GateFit::Steps::kFine);
+    if (better(tracked, best)) best = tracked;
+  }
   const double evidence = Evidence(gate.views);
   if (!gate.best || evidence > kSearchAgain * gate.searched_at) {
+    gate.searched_at = evidence;
     const std::size_t first = gate.views.size() > kSearchViews ? gate.views.size() - kSearchViews : 0;
     const std::vector<GateView> latest(gate.views.begin() + static_cast<std::ptrdiff_t>(first), gate.views.end());
-    for (const GatePose& pose : fit.Search(latest, hint)) starts.emplace_back(pose, false);
-    gate.searched_at = evidence;
-  }
-  std::optional<GateFit::Result> best;
-  for (const auto& [start, tracked] : starts) {
-    const GateFit::Result result = fit.Refine(gate.views, start, hint, tracked);
-    if (!Near(result.pose, hint)) continue;
-    if (!best || result.quality.score > best->quality.score) best = result;
+    std::optional<GateFit::Result> found;
+    for (const GatePose& pose : fit.Search(latest, hint)) {
+      const GateFit::Result coarse = fit.Refine(gate.views, pose, hint, GateFit::Steps::kCoarse);
+      if (better(coarse, found)) found = coarse;
+    }
+    if (found) {
+      const GateFit::Result fine = fit.Refine(gate.views, found->pose, hint, GateFit::Steps::kFine);
+      if (better(fine, best)) best = fine;
+    }
   }
   // A fit that fell below the bar (a view through a glare, a passer-by) does not make a gate unseen that was seen.
   if (!best || (gate.best && !best->quality.accepted)) return;

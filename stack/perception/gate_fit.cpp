@@ -13,8 +13,17 @@ constexpr double kCorrelatedPixels = 64.0;  // depths in a window of 8×8 pixels
 constexpr double kHintNormalSigma = 0.4;    // m, of the survey and the map frame along the normal
 constexpr double kHintYawSigma = 0.15;      // rad
 constexpr int kSegments = 8;                // a bar's length is judged in so many pieces
-constexpr int kRounds = 7;                  // of refinement; steps in the plane shrink from 8 cm to 1 cm
-constexpr int kTrackedRounds = 3;           // … from 3 cm
+
+/// How a refinement goes: rounds, first step in the plane (m, it shrinks to 1 cm), softness of the evidence (m), and
+/// every how-many-th sample is looked at.
+struct Schedule {
+  int rounds;
+  double step;
+  double softness;
+  int stride;
+};
+constexpr Schedule kCoarse{3, 0.08, 0.05, 2};
+constexpr Schedule kFine{4, 0.03, 0.0, 1};
 
 /// Distance outside the opening (Chebyshev), m; negative inside.
 float Outside(float y, float z, float half) { return std::max(std::abs(y), std::abs(z)) - half; }
@@ -65,7 +74,8 @@ void GateFit::Cross(const std::vector<GateView>& views, const GatePose& pose, do
       if (std::abs(c.y_in) > reach || std::abs(c.z_in) > reach) continue;
       c.y_out = l.dot(p_GC) + t_out * l.dot(s.ray_O);
       c.z_out = p_GC.z() + t_out * s.ray_O.z();
-      c.sigma = std::hypot(t_in * t_in * per_px2, static_cast<float>(kModelSigma));
+      const float depth_sigma = t_in * t_in * per_px2;
+      c.sigma = std::sqrt(depth_sigma * depth_sigma + static_cast<float>(kModelSigma * kModelSigma));
       c.evidence = Evidence(s.z, t_in, t_out, c.sigma + static_cast<float>(extra_sigma));
       c.weight = static_cast<float>(view.pixels_per_sample) * static_cast<float>(stride);
       c.depth_error = s.z - t_in;
@@ -146,24 +156,25 @@ GateFit::PlaneStep GateFit::AdjustPlane(const std::vector<Crossing>& crossings, 
 }
 
 GateFit::Result GateFit::Refine(const std::vector<GateView>& views, const GatePose& start, const GatePose& hint,
-                                bool tracked) const {
+                                Steps steps) const {
   constexpr double kMargin = 0.45;  // m outside the opening
+  const Schedule& schedule = steps == Steps::kCoarse ? kCoarse : kFine;
   Result result;
   result.pose = start;
   std::vector<Crossing> crossings;
   PlaneStep plane;
-  double step = tracked ? 0.03 : 0.08;
-  for (int round = 0; round < (tracked ? kTrackedRounds : kRounds); ++round) {
-    const double softness = !tracked && round < 2 ? 0.05 : 0.0;
-    Cross(views, result.pose, kMargin, softness, 1, crossings);
+  double step = schedule.step;
+  const auto cross = [&] { Cross(views, result.pose, kMargin, schedule.softness, schedule.stride, crossings); };
+  for (int round = 0; round < schedule.rounds; ++round) {
+    cross();
     AdjustInPlane(crossings, step, result.pose);
-    Cross(views, result.pose, kMargin, softness, 1, crossings);
+    cross();
     plane = AdjustPlane(crossings, result.pose, hint);
     result.pose.p_O += std::clamp(plane.normal, -0.2, 0.2) * result.pose.Normal();
     result.pose.yaw += std::clamp(plane.yaw, -0.15, 0.15);
     step = std::max(0.01, 0.7 * step);
   }
-  Cross(views, result.pose, kMargin, 0.0, 1, crossings);
+  cross();
   result.quality = Judge(crossings);
 
   const GateView& last = views.back();

@@ -72,10 +72,12 @@ class GateFit {
     double normal_sigma = 0.0;
     double yaw_sigma = 0.0;
   };
+  /// Coarse: from a pose of the raster, large steps on half of the samples, softened evidence. Fine: from a pose that
+  /// is about right (a former result or a coarse one).
+  enum class Steps { kCoarse, kFine };
   /// Alternates between the plane (normal offset and yaw, from depths on the bars) and the place in the plane (from
-  /// what is bar and what is seen through), starting at `start`; `tracked`: that start is a former result, so that a
-  /// few small steps suffice.
-  Result Refine(const std::vector<GateView>& views, const GatePose& start, const GatePose& hint, bool tracked) const;
+  /// what is bar and what is seen through), starting at `start`.
+  Result Refine(const std::vector<GateView>& views, const GatePose& start, const GatePose& hint, Steps steps) const;
 
   /// The samples of the views whose rays pass the pose's slab within `margin` (m) of the opening.
   /// `extra_sigma` (m) softens the evidence for coarse poses; only every `stride`-th sample is taken.
