@@ -19,7 +19,8 @@ target_compile_options(alula_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-res
   -Wno-error=array-bounds -Wno-error=stringop-overflow -Wno-error=stringop-overread>)
 target_include_directories(alula_options INTERFACE ${CMAKE_SOURCE_DIR})
 target_include_directories(alula_options SYSTEM INTERFACE ${EIGEN3_INCLUDE_DIRS})
-target_compile_definitions(alula_options INTERFACE EIGEN_DONT_PARALLELIZE)
+# A vector that nobody has set is zero, in every build: a forgotten one must not make two runs differ.
+target_compile_definitions(alula_options INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_INITIALIZE_MATRICES_BY_ZERO)
 
 # alula_library(NAME SOURCES … LINKS … SYSTEM_INCLUDES …): one folder, one target, explicit dependencies.
 function(alula_library name)
