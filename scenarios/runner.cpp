@@ -145,7 +145,7 @@ std::string TimingJson(const sim::Simulation* simulation, double wall_s) {
 }
 
 void WriteFolder(const Scenario& scenario, const worlds::World& world, const Verdict& verdict,
-                 const std::string& timing, Cast& cast) {
+                 const std::string& timing, const std::vector<stack::StackFile>& files, Cast& cast) {
   const base::Time end =
       base::Time{} + base::Seconds(verdict.metrics.contains("duration_s") ? verdict.metrics.at("duration_s") : 0.0);
   cast.recorder->AddEvent(end, "run", "end",
@@ -154,8 +154,9 @@ void WriteFolder(const Scenario& scenario, const worlds::World& world, const Ver
   cast.folder->Write("scenario.yaml", base::DumpConfig(scenario.config));
   cast.folder->Write("world.json", WorldToJson(world));
   cast.folder->Write("timing.json", timing);
+  for (const stack::StackFile& file : files) cast.folder->Write(file.name, file.bytes);
   cast.folder->Write("verdict.json", ToJson(verdict));
-  cast.folder->Commit();
+  cast.folder->Commit({"map.bt", "video.mp4"});
 }
 
 }  // namespace
@@ -194,10 +195,16 @@ Verdict RunScenario(const Scenario& scenario, const RunOptions& options) {
   } catch (const std::exception& e) {
     fault("exception", e.what());
   }
+  std::vector<stack::StackFile> files;
+  try {
+    if (simulation && cast.folder) files = simulation->StackFiles();
+  } catch (const base::FaultError& e) {
+    if (verdict.outcome != Outcome::kFault) fault(e.reason(), e.what());
+  }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   for (const auto& spectator : cast.spectators) spectator->Finish();
   Judge(cast, verdict);
-  if (cast.folder) WriteFolder(scenario, *world, verdict, TimingJson(simulation.get(), wall.count()), cast);
+  if (cast.folder) WriteFolder(scenario, *world, verdict, TimingJson(simulation.get(), wall.count()), files, cast);
   return verdict;
 }
 

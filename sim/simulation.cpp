@@ -170,4 +170,13 @@ std::vector<stack::StageTime> Simulation::Timing() const {
   return stages;
 }
 
+std::vector<stack::StackFile> Simulation::StackFiles() const {
+  if (!parts_.stack) return {};
+  try {
+    return parts_.stack->Files();
+  } catch (const std::exception& e) {
+    throw base::FaultError("stack_exception", e.what());
+  }
+}
+
 }  // namespace alula::sim

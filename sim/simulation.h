@@ -66,6 +66,8 @@ class Simulation {
   const PhysicsWorld& physics() const { return *physics_; }
   /// Wall time by stage in ms, the stack's own stages included ("stack/…").
   std::vector<stack::StageTime> Timing() const;
+  /// What the stack leaves behind; none without a stack. Throws base::FaultError: "stack_exception".
+  std::vector<stack::StackFile> StackFiles() const;
 
  private:
   struct InFlight {

@@ -62,6 +62,12 @@ struct StageTime {
   double p99_ms = 0.0;  // processor time of a call, 99th percentile; 0 where calls are not told apart
 };
 
+/// A file that a stack leaves in the run folder: a map, a graph.
+struct StackFile {
+  std::string name;  // a plain file name
+  std::string bytes;
+};
+
 struct StackOutput {
   std::vector<Command> commands;
   std::optional<Estimate> estimate;
@@ -81,6 +87,8 @@ class NavigationStack {
   virtual StackOutput Step(base::Time now, std::span<const Measurement> measurements) = 0;
   /// Wall time spent so far, by stage; for timing.json.
   virtual std::vector<StageTime> Timing() const { return {}; }
+  /// What the stack has made of the run so far; asked for once, after the last Step.
+  virtual std::vector<StackFile> Files() const { return {}; }
 };
 
 }  // namespace alula::stack

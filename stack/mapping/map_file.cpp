@@ -1,4 +1,4 @@
-#include "stack/mapping/internal/map_file.h"
+#include "stack/mapping/map_file.h"
 
 #include <octomap/OcTree.h>
 
@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace alula::stack::mapping::internal {
+namespace alula::stack::mapping {
 
 void WriteOctoMap(const ClearanceField& field, std::ostream& out) {
   const GridShape& shape = field.shape;
@@ -32,4 +32,4 @@ void WriteOctoMap(const ClearanceField& field, std::ostream& out) {
   if (!out) throw base::FaultError("map_write", "the octree could not be written");
 }
 
-}  // namespace alula::stack::mapping::internal
+}  // namespace alula::stack::mapping

@@ -4,12 +4,10 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
-#include <ostream>
 
 #include "base/error.h"
 #include "stack/mapping/internal/distance_transform.h"
 #include "stack/mapping/internal/frame_evidence.h"
-#include "stack/mapping/internal/map_file.h"
 
 namespace alula::stack::mapping {
 
@@ -239,6 +237,5 @@ std::vector<Eigen::Vector3f> OccupancyMap::OccupiedCells() const {
 std::uint64_t OccupancyMap::revision() const { return impl_->field.revision; }
 const GridShape& OccupancyMap::shape() const { return impl_->field.shape; }
 const OccupancyMapConfig& OccupancyMap::config() const { return impl_->config; }
-void OccupancyMap::Write(std::ostream& out) const { internal::WriteOctoMap(impl_->UpToDate(), out); }
 
 }  // namespace alula::stack::mapping

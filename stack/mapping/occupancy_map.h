@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <iosfwd>
 #include <memory>
 #include <vector>
 
@@ -64,8 +63,6 @@ class OccupancyMap {
   std::uint64_t revision() const;
   const GridShape& shape() const;
   const OccupancyMapConfig& config() const;
-  /// The known cells as an OctoMap binary tree (`map.bt`); unknown cells are absent.
-  void Write(std::ostream& out) const;
 
  private:
   struct Impl;

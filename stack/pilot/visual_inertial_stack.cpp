@@ -5,10 +5,12 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "base/error.h"
 #include "stack/estimation/imu_propagator.h"
+#include "stack/mapping/map_file.h"
 #include "stack/pilot/job_queue.h"
 
 namespace alula::stack::pilot {
@@ -147,6 +149,14 @@ class VisualInertialStack : public NavigationStack {
     return stages;
   }
 
+  /// The map as the mission knew it last, in the odometry frame.
+  std::vector<StackFile> Files() const override {
+    if (!field_) return {};
+    std::ostringstream map;
+    mapping::WriteOctoMap(*field_, map);
+    return {{"map.bt", map.str()}};
+  }
+
  private:
   void Take(const Measurement& measurement) {
     if (const auto* imu = std::get_if<ImuSample>(&measurement.data)) {
@@ -210,6 +220,7 @@ class VisualInertialStack : public NavigationStack {
             return workshop_.Map(left, right, X_OB, X_MO);
           },
           [this, now](MapResult result) {
+            field_ = result.field;
             mission_.OnMap(now + config_.latency.mapping, result.field, result.gates);
             occupied_O_ = std::move(result.occupied_O);
             for (std::size_t i = 0; i < kMapParts.size(); ++i) map_timing_.ms[i] += result.timing.ms[i];
@@ -286,6 +297,7 @@ class VisualInertialStack : public NavigationStack {
   bool initialised_ = false, ever_initialised_ = false;
   std::uint32_t reset_counter_ = 0;
   std::string last_note_;
+  std::shared_ptr<const mapping::ClearanceField> field_;
   std::vector<Eigen::Vector3f> occupied_O_;
   std::shared_ptr<const StackView> view_;
   estimation::OdometryTiming timing_;

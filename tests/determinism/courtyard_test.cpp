@@ -32,6 +32,8 @@ TEST(CourtyardGates, PassesAndIsOneRunWithWorkersVideoFolderAndMaker) {
   EXPECT_EQ(first["digest"], second["digest"]);
   EXPECT_FALSE(fs::exists(plain / "video.mp4"));
   EXPECT_GT(fs::file_size(filmed / "video.mp4"), 1'000'000U);
+  EXPECT_GT(fs::file_size(plain / "map.bt"), 10'000U);
+  EXPECT_EQ(ReadText(plain / "map.bt"), ReadText(filmed / "map.bt"));
   for (const auto& entry : fs::directory_iterator(filmed)) EXPECT_NE(entry.path().filename().string()[0], '.');
 }
 

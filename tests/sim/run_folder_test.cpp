@@ -41,13 +41,14 @@ TEST_F(RunFolderTest, ReplacesAnEarlierRunAndKeepsWhatIsNotItsOwn) {
   {
     RunFolder folder(root_ / "run");
     folder.Write("verdict.json", "old");
+    folder.Write("video.mp4", "of the old run");
     folder.Commit();
   }
   std::ofstream(root_ / "run" / "notes.txt") << "mine";
   RunFolder folder(root_ / "run");
   folder.Write("verdict.json", "new");
   EXPECT_EQ(Read(root_ / "run" / "verdict.json"), "old");
-  folder.Commit();
+  folder.Commit({"video.mp4", "map.bt"});
   EXPECT_EQ(Read(root_ / "run" / "verdict.json"), "new");
   EXPECT_EQ(Read(root_ / "run" / "notes.txt"), "mine");
   int entries = 0;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "stack/mapping/map_file.h"
 #include "tests/stack/mapping/synthetic_scene.h"
 
 namespace alula::stack::mapping {
@@ -160,7 +161,7 @@ TEST(OccupancyMap, WritesAnOctreeThatReadsBackTheSame) {
   const base::Transform X_OC = LookAlong({0, 0, 1.2}, 0);
   for (int n = 0; n < 3; ++n) map.Insert(scene.Depth(test::HalfSizeShape(), X_OC), X_OC);
   std::stringstream file;
-  map.Write(file);
+  WriteOctoMap(*map.Snapshot(), file);
   octomap::OcTree tree(1.0);
   ASSERT_TRUE(tree.readBinary(file));
   EXPECT_NEAR(tree.getResolution(), 0.1, 1e-12);
