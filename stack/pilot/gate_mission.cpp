@@ -20,6 +20,7 @@ namespace {
 constexpr Duration kArmPeriod = base::Milliseconds(500);  // between two tries to arm, or to land
 constexpr Duration kClimbRest = base::Milliseconds(200);  // after the climb before the scan
 constexpr double kClimbAcceleration = 1.5;                // m/s², at most
+constexpr double kClimbTolerance = 0.1;                   // m below the take-off height that will do
 constexpr double kScanBeyond = 0.4;                       // rad beyond the first gate
 constexpr double kColumnRadius = 0.3;                     // m, the least
 
@@ -35,13 +36,13 @@ GateMission::GateMission(const Calibration& calibration, const Mission& mission,
       flown_(route.limits),
       course_(mission, config, route, alignment, plan_latency, seed) {}
 
-void GateMission::OnMap(Time, std::shared_ptr<const mapping::ClearanceField> field,
+void GateMission::OnMap(std::shared_ptr<const mapping::ClearanceField> field,
                         const std::vector<std::optional<perception::GateObservation>>& gates) {
   course_.OnMap(std::move(field), gates);
   ++revision_;
 }
 
-void GateMission::OnRoute(Time, planning::RouteResult result) {
+void GateMission::OnRoute(planning::RouteResult result) {
   if (!course_.OnRoute(result, flown_)) return;
   path_O_ = std::move(result.path_O);
   ++revision_;
@@ -80,7 +81,7 @@ void GateMission::Proceed(const MissionInput& in, MissionOutput& out) {
       Arming(in, out);
       return;
     case Phase::kClimb:
-      if (in.now >= flown_.current().end() + kClimbRest) BeginScan(in.now, out);
+      if (in.now >= flown_.current().end() + kClimbRest) ClimbOnOrScan(in.now, out);
       return;
     case Phase::kScan:
       if (in.now >= flown_.current().yaw_end()) BeginCourse(in.now, out);
@@ -117,16 +118,30 @@ void GateMission::Arming(const MissionInput& in, MissionOutput& out) {
 void GateMission::TakeOff(const MissionInput& in, MissionOutput& out) {
   phase_ = Phase::kClimb;
   state_ = StackState::kFlying;
-  const TrajectoryPoint here{.p_O = in.X_OB.p, .yaw = base::Yaw(in.X_OB.q)};
+  takeoff_O_ = in.X_OB.p;
+  Climb(in.now, {.p_O = in.X_OB.p, .yaw = base::Yaw(in.X_OB.q)});
+  Say(out, in.now, "take_off", fmt::format("climbing {:.1f} m in the trusted column", config_.takeoff_height));
+}
+
+/// From rest at `here` up to the take-off height.
+void GateMission::Climb(Time now, const TrajectoryPoint& here) {
   planning::TrajectoryLimits limits = limits_;
   limits.max_climb_speed = config_.takeoff_speed;
   limits.max_acceleration = std::min(limits.max_acceleration, kClimbAcceleration);
-  const planning::Curve up({here.p_O, here.p_O + Vec3(0, 0, config_.takeoff_height)});
-  flown_.Replace(Trajectory::Along(in.now, here, up, {}, limits).value());
-  takeoff_O_ = here.p_O;
+  const planning::Curve up({here.p_O, {here.p_O.x(), here.p_O.y(), takeoff_O_.z() + config_.takeoff_height}});
+  flown_.Replace(Trajectory::Along(now, here, up, {}, limits).value());
   path_O_ = {up.Position(0), up.Position(up.length())};
   ++revision_;
-  Say(out, in.now, "take_off", fmt::format("climbing {:.1f} m in the trusted column", config_.takeoff_height));
+}
+
+/// A loss of the odometry may have ended the climb, or the scan, half-way.
+void GateMission::ClimbOnOrScan(Time now, MissionOutput& out) {
+  const TrajectoryPoint here = flown_.Sample(now);
+  if (here.p_O.z() < takeoff_O_.z() + config_.takeoff_height - kClimbTolerance) {
+    Climb(now, {.p_O = here.p_O, .yaw = here.yaw});
+  } else {
+    BeginScan(now, out);
+  }
 }
 
 /// Looks to both sides, the first gate's last and farther than it is, and ends facing the first gate.
@@ -142,7 +157,7 @@ void GateMission::BeginScan(Time now, MissionOutput& out) {
   const double far = std::max(config_.scan_half_angle, std::abs(towards) + kScanBeyond);
   flown_.Turn(now, {here.yaw - side * config_.scan_half_angle, here.yaw + side * far, here.yaw + towards},
               config_.scan_rate);
-  Say(out, now, "scan", "looking around before the course");
+  Say(out, now, "scan", fmt::format("looking around {:.1f} m up before the course", here.p_O.z() - takeoff_O_.z()));
 }
 
 void GateMission::BeginCourse(Time now, MissionOutput& out) {
@@ -163,7 +178,7 @@ bool GateMission::CheckOdometry(const MissionInput& in, MissionOutput& out) {
     return true;
   }
   if (phase_ != Phase::kLost) {
-    phase_before_loss_ = phase_ == Phase::kClimb || phase_ == Phase::kScan ? Phase::kScan : phase_;
+    phase_before_loss_ = phase_ == Phase::kScan ? Phase::kClimb : phase_;
     phase_ = Phase::kLost;
     lost_since_ = in.now;
     Say(out, in.now, "odometry_lost", "the odometry is not healthy: holding");

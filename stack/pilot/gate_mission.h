@@ -29,9 +29,9 @@ class GateMission {
               std::uint64_t seed);
 
   /// A new map, and the gates as measured so far (one entry a gate).
-  void OnMap(base::Time now, std::shared_ptr<const mapping::ClearanceField> field,
+  void OnMap(std::shared_ptr<const mapping::ClearanceField> field,
              const std::vector<std::optional<perception::GateObservation>>& gates);
-  void OnRoute(base::Time now, planning::RouteResult result);
+  void OnRoute(planning::RouteResult result);
   MissionOutput Update(const MissionInput& input);
 
   StackState state() const { return state_; }
@@ -51,6 +51,8 @@ class GateMission {
   void WaitForOdometry(const MissionInput& in, MissionOutput& out);
   void Arming(const MissionInput& in, MissionOutput& out);
   void TakeOff(const MissionInput& in, MissionOutput& out);
+  void Climb(base::Time now, const planning::TrajectoryPoint& here);
+  void ClimbOnOrScan(base::Time now, MissionOutput& out);
   void BeginScan(base::Time now, MissionOutput& out);
   void BeginCourse(base::Time now, MissionOutput& out);
   bool CheckOdometry(const MissionInput& in, MissionOutput& out);

@@ -219,9 +219,9 @@ class VisualInertialStack : public NavigationStack {
           [this, left = *pair.left, right = *pair.right, X_OB = frame.state.X_OB, X_MO = mission_.X_MO()] {
             return workshop_.Map(left, right, X_OB, X_MO);
           },
-          [this, now](MapResult result) {
+          [this](MapResult result) {
             field_ = result.field;
-            mission_.OnMap(now + config_.latency.mapping, result.field, result.gates);
+            mission_.OnMap(result.field, result.gates);
             occupied_O_ = std::move(result.occupied_O);
             for (std::size_t i = 0; i < kMapParts.size(); ++i) map_timing_.ms[i] += result.timing.ms[i];
             ++maps_;
@@ -271,9 +271,7 @@ class VisualInertialStack : public NavigationStack {
           [this, request = std::move(*decided.request)] {
             return planning::PlanRoute(request, config_.route, *workshop_.planner);
           },
-          [this, now](planning::RouteResult result) {
-            mission_.OnRoute(now + config_.latency.planning, std::move(result));
-          });
+          [this](planning::RouteResult result) { mission_.OnRoute(std::move(result)); });
     }
     if (estimate && initialised_ && now >= next_estimate_) {
       next_estimate_ = now + config_.estimate_period;

@@ -32,7 +32,7 @@ struct VisualInertialConfig {
   MapAlignmentConfig alignment;
   GateMissionConfig mission;
   DeclaredLatencies latency;
-  int depth_every = 4;  // every this many-th stereo pair goes into the map: 5 Hz of 20 Hz
+  int depth_every = 2;  // every this many-th stereo pair goes into the map: 10 Hz of 20 Hz
   base::Duration estimate_period = base::Milliseconds(10);  // 100 Hz
   double map_margin = 1.0;                                  // m of map around the mission's bounds
   bool publish_alignment = false;  // send X_MO as the gates suggest it; off: identity (O is the mission's frame)

@@ -38,14 +38,14 @@ struct RouteConfig {
   double clearance_floor = 0.24;       // m, of relaxed starts and goals, and of the trajectory being flown
   double comfortable_clearance = 0.7;  // m; nearer than this, smoothing pushes the curve away where it can
   double known_free_radius = 0.25;     // m, ball that should have been seen free wherever the vehicle flies
-  double known_free_floor = 0.06;      // m, ball that must have been: it stops before where even this is unknown
-  double barely_seen_speed = 1.2;      // m/s between the two (specks that stereo left out beside the path)
-  double passage_before = 1.2;         // m of straight flight before a gate …
-  double passage_after = 1.2;          // … and after it: the frame leaves the view there
-  double passage_exempt = 0.7;  // m to each side of the opening's plane where the gate's fit, not the map, decides
-  double passage_speed = 2.0;   // m/s
-  double point_spacing = 0.2;   // m between control points of the curve
-  int smoothing_rounds = 150;   // of the elastic band
+  double known_free_floor = 0.19;  // m, ball (the hull's) that must have been: it stops before where this is unknown
+  double barely_seen_speed = 1.2;  // m/s between the two (specks that stereo left out beside the path)
+  double passage_before = 1.2;     // m of straight flight before a gate …
+  double passage_after = 1.2;      // … and after it: the frame leaves the view there
+  double passage_exempt = 0.7;     // m to each side of the opening's plane where the gate's fit, not the map, decides
+  double passage_speed = 2.0;      // m/s
+  double point_spacing = 0.2;      // m between control points of the curve
+  int smoothing_rounds = 150;      // of the elastic band
   TrajectoryLimits limits;
   GlobalPlannerConfig planner;
 };

@@ -92,6 +92,26 @@ TEST(GateMission, GoesOnAfterAShortLossOfOdometry) {
   ExpectAllPassed(result, 0.15);
 }
 
+TEST(GateMission, FinishesClimbAndScanThatALossOfOdometryCutShort) {
+  for (const double lost_at : {0.8, 4.0}) {  // in the climb, in the scan
+    ToyCourse course = ToyCourse::Courtyard();
+    course.lose_odometry_at = lost_at;
+    course.lose_for = 1.0;
+    course.time_limit = 25.0;
+    const ToyResult result = Fly(course);
+    SCOPED_TRACE(result.Log());
+    ASSERT_EQ(result.Count("odometry_back"), 1);
+    const auto kind_is = [](const char* kind) { return [kind](const StackEvent& e) { return e.kind == kind; }; };
+    const auto back = std::find_if(result.events.begin(), result.events.end(), kind_is("odometry_back"));
+    const auto scan = std::find_if(back, result.events.end(), kind_is("scan"));
+    const auto begun = std::find_if(back, result.events.end(), kind_is("course"));
+    ASSERT_NE(scan, result.events.end());
+    ASSERT_NE(begun, result.events.end());
+    EXPECT_NE(scan->text.find("1.2 m up"), std::string::npos) << scan->text;
+    EXPECT_GT((begun->time - scan->time).Seconds(), 2.0);  // it does look around
+  }
+}
+
 TEST(GateMission, LandsWhenTheOdometryStaysLost) {
   ToyCourse course = ToyCourse::Courtyard();
   course.lose_odometry_at = 14.0;

@@ -116,12 +116,12 @@ ToyResult Fly(const ToyCourse& course, std::uint64_t seed) {
 
   for (Time now; now.Seconds() < course.time_limit; now += Milliseconds(5)) {
     if (pending_map && pending_map->due <= now) {
-      mission.OnMap(now, pending_map->field, pending_map->gates);
+      mission.OnMap(pending_map->field, pending_map->gates);
       last_field = pending_map->field;
       pending_map.reset();
     }
     if (pending_route && pending_route->first <= now) {
-      mission.OnRoute(now, std::move(pending_route->second));
+      mission.OnRoute(std::move(pending_route->second));
       pending_route.reset();
     }
     if (now.ns % 200'000'000 == 0) {
