@@ -12,7 +12,6 @@ namespace alula::stack::estimation::test {
 namespace {
 
 using base::Exp;
-using base::Transform;
 using base::Vec3;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;

@@ -10,7 +10,6 @@
 namespace alula::stack::estimation::test {
 namespace {
 
-using base::Exp;
 using base::Log;
 
 /// A smooth, strong motion: angular rate and specific force as functions of time.
