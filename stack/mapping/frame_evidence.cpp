@@ -7,6 +7,12 @@
 
 namespace alula::stack::mapping::internal {
 
+namespace {
+
+constexpr int kPlainStride = 2;  // plain pixels looked at, by row and column; at 2.5 m they are 3 cm apart
+
+}  // namespace
+
 FrameEvidence::FrameEvidence(const GridShape& shape)
     : shape_(shape),
       end_stamp_(shape.count()),
@@ -22,7 +28,9 @@ void FrameEvidence::Collect(const OccupancyMapConfig& config, const DepthMap& de
   ++frame_;
   hits_.clear();
   free_ends_.clear();
+  plain_ends_.clear();
   crossed_.clear();
+  doubted_.clear();
   const base::Mat3 R_OC = X_OC.R();
   const base::Vec3 step_u = R_OC.col(0) / depth.fx;
   for (int v = 0; v < depth.height; ++v) {
@@ -32,9 +40,11 @@ void FrameEvidence::Collect(const OccupancyMapConfig& config, const DepthMap& de
       if (z > 0.0) AddPixel(config, depth, z, row_start + u * step_u, X_OC.p);
     }
   }
+  AddPlainPixels(config, depth, X_OC);
   DropThinHits(config, depth);
   GuardHits(config, depth, X_OC.p);
-  CrossCells(X_OC.p);
+  CrossCells(X_OC.p, free_ends_, crossed_);
+  CrossCells(X_OC.p, plain_ends_, doubted_);
 }
 
 void FrameEvidence::AddPixel(const OccupancyMapConfig& config, const DepthMap& depth, double z, const base::Vec3& ray_O,
@@ -58,14 +68,30 @@ void FrameEvidence::AddPixel(const OccupancyMapConfig& config, const DepthMap& d
     const double margin = config.free_sigmas * depth.Sigma(z, config.disparity_sigma);
     free_to = std::min(free_to, std::max(z - margin, config.free_share_min * z));
   }
-  base::Vec3 from_O = p_OC;
-  base::Vec3 to_O = p_OC + free_to * ray_O;
+  AddRay(p_OC, p_OC + free_to * ray_O, free_ends_);
+}
+
+void FrameEvidence::AddPlainPixels(const OccupancyMapConfig& config, const DepthMap& depth,
+                                   const base::Transform& X_OC) {
+  const base::Mat3 R_OC = X_OC.R();
+  for (int v = 0; v < depth.height; v += kPlainStride) {
+    for (int u = 0; u < depth.width; u += kPlainStride) {
+      if (depth.At(u, v) != DepthMap::kPlain) continue;
+      AddRay(X_OC.p, X_OC.p + config.doubt_range * (R_OC * depth.Ray(u, v)), plain_ends_);
+    }
+  }
+}
+
+/// Notes the ray's end unless a ray to the same cell is to be walked already.
+void FrameEvidence::AddRay(const base::Vec3& from, const base::Vec3& to, std::vector<base::Vec3>& ends) {
+  base::Vec3 from_O = from;
+  base::Vec3 to_O = to;
   if (!ClipToGrid(shape_, from_O, to_O)) return;
   const auto [i, j, k] = shape_.CellOf(to_O);
   const std::size_t cell = shape_.Index(i, j, k);
-  if (end_stamp_[cell] == frame_) return;  // a ray to this cell is walked already
+  if (end_stamp_[cell] == frame_) return;
   end_stamp_[cell] = frame_;
-  free_ends_.push_back(to_O);
+  ends.push_back(to_O);
 }
 
 void FrameEvidence::DropThinHits(const OccupancyMapConfig& config, const DepthMap& depth) {
@@ -88,15 +114,16 @@ void FrameEvidence::GuardHits(const OccupancyMapConfig& config, const DepthMap& 
   }
 }
 
-void FrameEvidence::CrossCells(const base::Vec3& p_OC) {
-  for (const base::Vec3& end_O : free_ends_) {
+void FrameEvidence::CrossCells(const base::Vec3& p_OC, const std::vector<base::Vec3>& ends,
+                               std::vector<std::size_t>& out) {
+  for (const base::Vec3& end_O : ends) {
     base::Vec3 from_O = p_OC;
     base::Vec3 to_O = end_O;
     if (!ClipToGrid(shape_, from_O, to_O)) continue;
-    WalkRay(shape_, from_O, to_O, [this](std::size_t cell) {
+    WalkRay(shape_, from_O, to_O, [this, &out](std::size_t cell) {
       if (kept_stamp_[cell] == frame_) return;
       kept_stamp_[cell] = frame_;
-      crossed_.push_back(cell);
+      out.push_back(cell);
     });
   }
 }

@@ -57,6 +57,11 @@ void Describe(base::Description& d, OccupancyMapConfig& c) {
           {.meaning = "nothing is carved within this·σ_z of a hit along its ray", .min = 0, .max = 10});
   d.Field("min_hit_share", c.min_hit_share,
           {.meaning = "share of a facing cell's pixels that a hit needs", .min = 0, .max = 1});
+  d.Field("doubt", c.doubt,
+          {.meaning = "log-odds taken where a near look finds nothing to match", .min = 0, .max = 10});
+  d.Field("doubt_range", c.doubt_range, {.unit = "m", .meaning = "what counts as near there", .min = 0, .max = 100});
+  d.Field("doubt_below", c.doubt_below,
+          {.meaning = "log-odds above which a cell is not doubted so", .min = 0, .max = 12});
   d.Field("max_clearance", c.max_clearance,
           {.unit = "m", .meaning = "where distances to obstacles are cut", .min = 0.05, .max = 10});
   d.Check("max_clearance",
@@ -77,6 +82,7 @@ struct OccupancyMap::Impl {
 
   void Raise(std::size_t cell, double by, double limit);
   void Lower(std::size_t cell, double by, double limit);
+  void Doubt(std::size_t cell);
   void Classify(std::size_t cell);
   void Changed();
   const ClearanceField& UpToDate();
@@ -107,6 +113,13 @@ void OccupancyMap::Impl::Lower(std::size_t cell, double by, double limit) {
   const int lowered = std::max<int>(now - Stored(by), std::min<int>(now, Stored(limit)));
   log_odds[cell] = static_cast<std::int16_t>(lowered);
   Classify(cell);
+}
+
+/// Stereo invents surfaces in a plain sky between two edges. One that only far views have shown goes back to unknown
+/// when near views, which would match a real surface, keep finding nothing there.
+void OccupancyMap::Impl::Doubt(std::size_t cell) {
+  const std::int16_t value = log_odds[cell];
+  if (value > 0 && value <= Stored(config.doubt_below)) Lower(cell, config.doubt, 0.0);
 }
 
 void OccupancyMap::Impl::Classify(std::size_t cell) {
@@ -151,6 +164,7 @@ void OccupancyMap::Insert(const DepthMap& depth, const base::Transform& X_OC) {
   const OccupancyMapConfig& c = impl_->config;
   impl_->evidence.Collect(c, depth, X_OC);
   for (const std::size_t cell : impl_->evidence.crossed()) impl_->Lower(cell, c.miss, c.min_log_odds);
+  for (const std::size_t cell : impl_->evidence.doubted()) impl_->Doubt(cell);
   for (const auto& hit : impl_->evidence.hits()) {
     const double sharpness = internal::FrameEvidence::Sharpness(c, depth, hit.depth);
     // A far hit reaches just above the threshold, so that one near ray through the cell clears it.

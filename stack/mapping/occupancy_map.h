@@ -26,6 +26,9 @@ struct OccupancyMapConfig {
   double free_below = -0.35;     // log-odds; below: free; between the two: unknown
   double guard_sigmas = 1.5;     // nothing is carved within this·σ_z (at least one cell) of a hit along its own ray
   double min_hit_share = 0.15;   // share of the pixels a facing cell would fill that must agree before it counts as hit
+  double doubt = 0.1;            // log-odds that a near look into plainness takes from what was only seen from afar …
+  double doubt_range = 2.5;      // m; … nearer than this a textured surface would have been matched …
+  double doubt_below = 2.0;      // … and above these log-odds it was seen from near: believed
   double max_clearance = 1.5;    // m, where the distance fields are cut
 };
 void Describe(base::Description& d, OccupancyMapConfig& c);

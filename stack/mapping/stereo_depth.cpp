@@ -16,6 +16,7 @@ namespace alula::stack::mapping {
 namespace {
 
 constexpr float kUnmatched = -1.0F;  // disparity, px
+constexpr float kPlain = -2.0F;      // the same: nothing to match
 
 cv::Mat View(const Image& image, const internal::Rectification& r) {
   if (image.format != PixelFormat::kGrey8 || image.width < r.width || image.height < r.height || !image.bytes) {
@@ -85,7 +86,7 @@ void RejectPlain(const cv::Mat& left, const StereoDepthConfig& c, cv::Mat& dispa
   cv::convertScaleAbs(gradient, strength);
   cv::Mat mean;
   cv::boxFilter(strength, mean, CV_32F, cv::Size(c.texture_window, c.texture_window));
-  disparity.setTo(kUnmatched, mean < c.min_texture);
+  disparity.setTo(kPlain, mean < c.min_texture);
 }
 
 /// Drops disparities that hang between the two sides of a depth edge: the flying pixels about thin bars.
@@ -179,7 +180,7 @@ DepthMap StereoDepth::Compute(const Image& left_image, const Image& right_image)
     float* z = depth.z.data() + static_cast<std::size_t>(v) * depth.width;
     for (int u = 0; u < depth.width; ++u) {
       if (d[u] < 0) {
-        z[u] = 0.0F;
+        z[u] = d[u] == kPlain ? DepthMap::kPlain : 0.0F;
       } else if (d[u] < static_cast<float>(c.far_disparity)) {
         z[u] = std::numeric_limits<float>::infinity();
       } else {

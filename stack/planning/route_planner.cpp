@@ -38,12 +38,7 @@ class RouteBuilder {
 
   RouteResult Build() {
     Begin();
-    for (const Passage& passage : request_.passages) {
-      if (!AddPassage(passage)) return std::move(result_);
-    }
-    if (request_.target_O && (request_.passages.empty() || !request_.passages.back().closed)) {
-      if (!AddLeg(*request_.target_O, -1)) return std::move(result_);
-    }
+    if (!AddWay()) return std::move(result_);
     if (band_.size() < 2) AppendLine(band_, band_.back().p_O + Vec3(1e-3, 0, 0), config_.point_spacing, true);
     for (const bool smooth : {true, false}) {
       if (Fly(smooth)) break;
@@ -52,6 +47,23 @@ class RouteBuilder {
   }
 
  private:
+  /// Through the passages and on to the target. Where only what comes after a passage has no way, the route ends behind
+  /// that passage: from there the map will show more.
+  bool AddWay() {
+    bool passed = false;
+    for (const Passage& passage : request_.passages) {
+      if (!AddPassage(passage)) return EndBehindPassage(passed);
+      passed = passed || !passage.closed;
+    }
+    if (!request_.target_O || (!request_.passages.empty() && request_.passages.back().closed)) return true;
+    return AddLeg(*request_.target_O, -1) || EndBehindPassage(passed);
+  }
+
+  bool EndBehindPassage(bool passed) {
+    no_way_on_ = passed;
+    return passed;
+  }
+
   /// The first stretch goes on as the vehicle moves, so that the curve leaves along its velocity.
   void Begin() {
     start_O_ = Trajectory::StartPoint(request_.start, limits_);
@@ -145,7 +157,9 @@ class RouteBuilder {
       if (planned.found) planned.reason += planned.reason.empty() ? "steep climb" : "; steep climb";
     }
     if (planned.source == PlanResult::Source::kSearch) ++result_.searches;
-    if (!planned.reason.empty()) result_.reason = planned.reason;
+    if (!planned.reason.empty()) {
+      result_.reason = (gate < 0 ? "target: " : fmt::format("gate {}: ", gate)) + planned.reason;
+    }
     if (!planned.found) return false;
     for (std::size_t i = 1; i < planned.path_O.size(); ++i) {
       AppendLine(band_, planned.path_O[i], config_.point_spacing, false);
@@ -195,6 +209,8 @@ class RouteBuilder {
     if (stop_at_point_) {
       stop = curve.Nearest(*stop_at_point_);
       result_.end = RouteEnd::kClosedGate;
+    } else if (no_way_on_) {
+      result_.end = RouteEnd::kNoWayOn;
     }
     const double floor = request_.known_free_floor >= 0.0 ? request_.known_free_floor : config_.known_free_floor;
     barely_seen_.clear();
@@ -202,7 +218,8 @@ class RouteBuilder {
       const Vec3 p = curve.Position(s);
       if (KnownFree(p, config_.known_free_radius)) continue;
       if (KnownFree(p, floor)) {
-        barely_seen_.push_back({s - 0.05, s + 0.05, config_.barely_seen_speed});
+        const bool hull_fits = KnownFree(p, config_.known_free_hull);
+        barely_seen_.push_back({s - 0.05, s + 0.05, hull_fits ? config_.barely_seen_speed : config_.creep_speed});
         continue;
       }
       result_.end = RouteEnd::kUnknownSpace;
@@ -269,6 +286,7 @@ class RouteBuilder {
   double start_clearance_ = 0.0;
   std::optional<Vec3> stop_at_point_;
   std::vector<SpeedZone> barely_seen_;
+  bool no_way_on_ = false;
 };
 
 }  // namespace
@@ -312,13 +330,18 @@ void Describe(base::Description& d, RouteConfig& c) {
           {.unit = "m", .meaning = "nearer to obstacles, smoothing pushes away", .min = 0.0, .max = 3});
   d.Field("known_free_radius", c.known_free_radius,
           {.unit = "m", .meaning = "ball that should have been seen free wherever it flies", .min = 0.0, .max = 2});
+  d.Field(
+      "known_free_hull", c.known_free_hull,
+      {.unit = "m", .meaning = "ball of the hull's size: it creeps where less was seen free", .min = 0.0, .max = 2});
   d.Field("known_free_floor", c.known_free_floor,
           {.unit = "m",
            .meaning = "ball that must have been seen free: it stops before where it was not",
            .min = 0.0,
            .max = 2});
   d.Field("barely_seen_speed", c.barely_seen_speed,
-          {.unit = "m/s", .meaning = "where only the smaller ball was seen free", .min = 0.1, .max = 10});
+          {.unit = "m/s", .meaning = "where little more than the hull's ball was seen free", .min = 0.1, .max = 10});
+  d.Field("creep_speed", c.creep_speed,
+          {.unit = "m/s", .meaning = "where less than the hull's ball was seen free", .min = 0.1, .max = 10});
   d.Field("passage_before", c.passage_before,
           {.unit = "m", .meaning = "straight flight before a gate", .min = 0.3, .max = 5});
   d.Field("passage_after", c.passage_after,

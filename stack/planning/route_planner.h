@@ -38,14 +38,16 @@ struct RouteConfig {
   double clearance_floor = 0.24;       // m, of relaxed starts and goals, and of the trajectory being flown
   double comfortable_clearance = 0.7;  // m; nearer than this, smoothing pushes the curve away where it can
   double known_free_radius = 0.25;     // m, ball that should have been seen free wherever the vehicle flies
-  double known_free_floor = 0.19;  // m, ball (the hull's) that must have been: it stops before where this is unknown
-  double barely_seen_speed = 1.2;  // m/s between the two (specks that stereo left out beside the path)
-  double passage_before = 1.2;     // m of straight flight before a gate …
-  double passage_after = 1.2;      // … and after it: the frame leaves the view there
-  double passage_exempt = 0.7;     // m to each side of the opening's plane where the gate's fit, not the map, decides
-  double passage_speed = 2.0;      // m/s
-  double point_spacing = 0.2;      // m between control points of the curve
-  int smoothing_rounds = 150;      // of the elastic band
+  double known_free_hull = 0.19;       // m, ball of the hull's size; where less than that was seen free it creeps
+  double known_free_floor = 0.06;      // m, ball that must have been: it stops before where even this is unknown
+  double barely_seen_speed = 1.2;      // m/s between radius and hull (specks that stereo left out beside the path)
+  double creep_speed = 0.6;     // m/s between hull and floor: it stops within 0.35 m, and stereo sees from 0.45 m on
+  double passage_before = 1.2;  // m of straight flight before a gate …
+  double passage_after = 1.2;   // … and after it: the frame leaves the view there
+  double passage_exempt = 0.7;  // m to each side of the opening's plane where the gate's fit, not the map, decides
+  double passage_speed = 2.0;   // m/s
+  double point_spacing = 0.2;   // m between control points of the curve
+  int smoothing_rounds = 150;   // of the elastic band
   TrajectoryLimits limits;
   GlobalPlannerConfig planner;
 };
@@ -81,11 +83,11 @@ struct RouteRequest {
   std::uint64_t number = 0;
 };
 
-enum class RouteEnd { kTarget, kClosedGate, kUnknownSpace };
+enum class RouteEnd { kTarget, kClosedGate, kUnknownSpace, kNoWayOn };
 
 struct RouteResult {
   bool ok = false;
-  std::string reason;  // why not, or what was relaxed
+  std::string reason;  // why not, why not farther, or what was relaxed
   std::optional<Trajectory> trajectory;
   RouteEnd end = RouteEnd::kTarget;  // what the trajectory stops at
   double flown_length = 0.0;         // m up to the stop

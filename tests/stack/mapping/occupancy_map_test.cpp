@@ -139,6 +139,33 @@ TEST(OccupancyMap, DeclaredColumnIsFreeUntilSomethingIsSeenInIt) {
   EXPECT_EQ(map.State({0.01, 0, 1}), CellState::kOccupied);
 }
 
+DepthMap AllPlain() {
+  DepthMap depth = test::HalfSizeShape();
+  depth.z.assign(static_cast<std::size_t>(depth.width) * depth.height, DepthMap::kPlain);
+  return depth;
+}
+
+TEST(OccupancyMap, NearLooksThatFindNothingToMatchTakeBackWhatOnlyFarOnesShowed) {
+  test::Scene sheet;
+  sheet.AddBox({5, 0, 1.4}, {0.05, 0.5, 0.5});
+  const base::Transform far = LookAlong({0.5, 0, 1.4}, 0);
+  const base::Transform near = LookAlong({3.2, 0, 1.4}, 0);
+  const base::Vec3 in_sheet(4.96, 0, 1.4);
+  OccupancyMap invented = Map();
+  for (int n = 0; n < 4; ++n) invented.Insert(sheet.Depth(test::HalfSizeShape(), far), far);
+  ASSERT_EQ(invented.State(in_sheet), CellState::kOccupied);
+  invented.Insert(AllPlain(), far);
+  EXPECT_EQ(invented.State(in_sheet), CellState::kOccupied) << "a far look says nothing";
+  for (int n = 0; n < 20; ++n) invented.Insert(AllPlain(), near);
+  EXPECT_EQ(invented.State(in_sheet), CellState::kUnknown) << "and not free";
+  EXPECT_DOUBLE_EQ(invented.LogOdds(in_sheet), 0.0);
+
+  OccupancyMap real = Map();
+  for (int n = 0; n < 4; ++n) real.Insert(sheet.Depth(test::HalfSizeShape(), near), near);
+  for (int n = 0; n < 200; ++n) real.Insert(AllPlain(), near);
+  EXPECT_EQ(real.State(in_sheet), CellState::kOccupied) << "it was seen from near";
+}
+
 TEST(OccupancyMap, SnapshotsStayAsTheyWereAndMapsAreEqualToTheBit) {
   const test::Scene scene = CourtyardCorner(0.15);
   const base::Transform X_OC = LookAlong({0, 0, 1.2}, 0);

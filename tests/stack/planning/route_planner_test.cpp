@@ -91,6 +91,49 @@ TEST(RoutePlanner, StopsInsideKnownFreeSpace) {
   EXPECT_GT(result.length, 9.0);  // the plan itself goes on, optimistically
 }
 
+TEST(RoutePlanner, CreepsWhereLessThanTheHullWasSeenFree) {
+  tests::SyntheticMap map(kLow, kHigh);
+  map.RevealBox(kLow, Vec3(4.0, 6, 4));
+  map.RevealBox(Vec3(4.0, -0.2, 1.0),
+                Vec3(6.0, 0.2, 1.4));  // a tube: the ball of 0.19 m does not fit with all its cells
+  map.RevealBox(Vec3(6.0, -6, 0), kHigh);
+  RouteRequest request = Request(map.Snapshot());
+  request.target_O = Vec3(10, 0, 1.2);
+  const RouteConfig config;
+  const auto planner = MakeInformedRrtStarPlanner(config.planner);
+  const RouteResult result = PlanRoute(request, config, *planner);
+  ASSERT_TRUE(result.ok) << result.reason;
+  EXPECT_EQ(result.end, RouteEnd::kTarget);
+  double fastest_inside = 0.0;
+  double fastest = 0.0;
+  for (base::Time t = result.trajectory->start(); t < result.trajectory->end(); t += base::Milliseconds(10)) {
+    const TrajectoryPoint point = result.trajectory->Sample(t);
+    fastest = std::max(fastest, point.v_O.norm());
+    if (point.p_O.x() > 4.1 && point.p_O.x() < 5.9) fastest_inside = std::max(fastest_inside, point.v_O.norm());
+  }
+  EXPECT_GT(fastest, 1.5);
+  EXPECT_GT(fastest_inside, 0.1);
+  EXPECT_LT(fastest_inside, config.creep_speed + 0.05);
+}
+
+TEST(RoutePlanner, EndsBehindAPassageFromWhichNoWayIsKnown) {
+  tests::SyntheticMap map(kLow, kHigh);
+  const Passage first{.gate = 0, .X_OG = GateAt(4, 0, 1.5, 0.0), .half_opening = 0.7};
+  const Passage second{.gate = 1, .X_OG = GateAt(9, 0, 1.5, 0.0), .half_opening = 0.7};
+  map.AddGate(first.X_OG, 1.4);
+  map.AddBox({base::Quat::Identity(), second.X_OG * Vec3(-1.2, 0, 0)}, {0.3, 0.3, 0.3});  // where it is entered
+  map.RevealAll();
+  RouteRequest request = Request(map.Snapshot());
+  request.passages = {first, second};
+  const RouteConfig config;
+  const auto planner = MakeInformedRrtStarPlanner(config.planner);
+  const RouteResult result = PlanRoute(request, config, *planner);
+  ASSERT_TRUE(result.ok) << result.reason;
+  EXPECT_EQ(result.end, RouteEnd::kNoWayOn);
+  EXPECT_NE(result.reason.find("gate 1: the goal is"), std::string::npos) << result.reason;
+  EXPECT_LT((result.trajectory->end_point() - first.X_OG * Vec3(config.passage_after, 0, 0)).norm(), 0.3);
+}
+
 TEST(RoutePlanner, SaysWhyItCannot) {
   tests::SyntheticMap map(kLow, kHigh);
   map.AddBox({base::Quat::Identity(), {5, 0, 2}}, {0.2, 6.1, 2.6});
