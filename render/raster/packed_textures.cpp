@@ -1,0 +1,58 @@
+#include "render/raster/packed_textures.h"
+
+#include <algorithm>
+
+#include "render/internal/texture_levels.h"
+
+namespace alula::render::raster {
+namespace {
+
+using internal::TextureLevel;
+
+/// Rows that begin a power of two apart would share few lines of the cache.
+constexpr int kRowPadding = 16;
+
+std::uint32_t Pack(const TextureLevel& level, int channels, int channel, int x, int y) {
+  const auto texel = [&](int column, int row) {
+    const auto wrapped = static_cast<std::size_t>((row % level.height) * level.width + column % level.width);
+    return std::uint32_t{level.bytes[wrapped * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channel)]};
+  };
+  return texel(x, y) | texel(x, y + 1) << 8 | texel(x + 1, y) << 16 | texel(x + 1, y + 1) << 24;
+}
+
+void Append(PackedTextures& packed, const std::vector<TextureLevel>& levels, int channels) {
+  const TextureLevel& top = levels.front();
+  TextureView view{};
+  view.offset = static_cast<std::uint32_t>(packed.words[0].size());
+  view.width = top.width;
+  view.height = top.height;
+  view.span = std::max(top.width, top.height);
+  view.pitch = 2 * view.span + kRowPadding;
+  view.last_level = static_cast<std::int32_t>(levels.size()) - 1;
+  for (int channel = 0; channel < channels; ++channel) {
+    std::vector<std::uint32_t>& words = packed.words[static_cast<std::size_t>(channel)];
+    words.resize(words.size() + static_cast<std::size_t>(view.pitch) * static_cast<std::size_t>(top.height), 0);
+    int number = 0;
+    for (const TextureLevel& level : levels) {
+      const std::size_t start = view.offset + static_cast<std::size_t>(2 * view.span - (2 * view.span >> number++));
+      for (int y = 0; y < level.height; ++y) {
+        for (int x = 0; x < level.width; ++x) {
+          words[start + static_cast<std::size_t>(y * view.pitch + x)] = Pack(level, channels, channel, x, y);
+        }
+      }
+    }
+  }
+  packed.views.push_back(view);
+}
+
+}  // namespace
+
+PackedTextures PackTextures(std::span<const geometry::Material> materials, int channels) {
+  PackedTextures packed;
+  for (const geometry::Material& material : materials) {
+    Append(packed, internal::TextureLevels(material, channels), channels);
+  }
+  return packed;
+}
+
+}  // namespace alula::render::raster
