@@ -58,14 +58,14 @@ struct ScreenTriangle {
   std::uint32_t id;
 };
 
-/// Mip chain in one array: 2×2 neighbouring texels a word, level l to the right of level l − 1.
+/// A mip chain: 2×2 neighbouring texels a word; each level a square of side 2^k (of the larger side) in Morton order,
+/// so that a walk in any direction meets few lines and pages; smaller levels first: side 2^k begins at (4^k − 1) / 3,
+/// which is 0x55555555 >> (32 − 2k).
 struct TextureView {
   std::uint32_t offset;  // of the first word
   std::int32_t width;    // texels of level 0
   std::int32_t height;
-  std::int32_t span;   // words a row that level 0 may take: the larger side; level l begins at 2 span − (2 span >> l)
-  std::int32_t pitch;  // words from row to row
-  std::int32_t last_level;
+  std::int32_t last_level;  // level l has k = last_level − l
 };
 
 /// Attributes over depth as planes over the picture, relative to a pixel that the triangle covers.
@@ -89,7 +89,7 @@ struct ShadeJob {
   std::uint32_t frame;     // never the same twice
   const TextureView* textures;
   const std::uint32_t* words[3];    // by channel
-  const std::uint16_t* shadow_map;  // distance from the sun, kShadowSide² texels
+  const std::uint32_t* shadow_map;  // distances from the sun of texels (x, y), low half, and (x, y + 1); Morton order
   int shadow_side;
   float sky_up[3];       // z of the ray in world axes: at pixel (0, 0), by x, by y
   float sky_ray[4];      // x and y of the ray with unit depth: at pixel (0, 0) and by pixel: x0, y0, dx, dy

@@ -1,16 +1,12 @@
 #include "render/raster/packed_textures.h"
 
-#include <algorithm>
-
 #include "render/internal/texture_levels.h"
+#include "render/raster/morton.h"
 
 namespace alula::render::raster {
 namespace {
 
 using internal::TextureLevel;
-
-/// Rows that begin a power of two apart would share few lines of the cache.
-constexpr int kRowPadding = 16;
 
 std::uint32_t Pack(const TextureLevel& level, int channels, int channel, int x, int y) {
   const auto texel = [&](int column, int row) {
@@ -26,19 +22,16 @@ void Append(PackedTextures& packed, const std::vector<TextureLevel>& levels, int
   view.offset = static_cast<std::uint32_t>(packed.words[0].size());
   view.width = top.width;
   view.height = top.height;
-  view.span = std::max(top.width, top.height);
-  view.pitch = 2 * view.span + kRowPadding;
   view.last_level = static_cast<std::int32_t>(levels.size()) - 1;
+  const std::size_t length = ((std::size_t{4} << (2 * view.last_level)) - 1) / 3;  // of all levels together
   for (int channel = 0; channel < channels; ++channel) {
-    std::vector<std::uint32_t>& words = packed.words[static_cast<std::size_t>(channel)];
-    words.resize(words.size() + static_cast<std::size_t>(view.pitch) * static_cast<std::size_t>(top.height), 0);
-    int number = 0;
+    Words& words = packed.words[static_cast<std::size_t>(channel)];
+    words.resize(words.size() + length, 0);
+    int k = view.last_level;
     for (const TextureLevel& level : levels) {
-      const std::size_t start = view.offset + static_cast<std::size_t>(2 * view.span - (2 * view.span >> number++));
+      const std::size_t start = view.offset + ((std::size_t{1} << (2 * k--)) - 1) / 3;
       for (int y = 0; y < level.height; ++y) {
-        for (int x = 0; x < level.width; ++x) {
-          words[start + static_cast<std::size_t>(y * view.pitch + x)] = Pack(level, channels, channel, x, y);
-        }
+        for (int x = 0; x < level.width; ++x) words[start + Morton(x, y)] = Pack(level, channels, channel, x, y);
       }
     }
   }

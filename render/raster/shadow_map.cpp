@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/raster/clipper.h"
+#include "render/raster/morton.h"
 #include "render/raster/visibility_buffer.h"
 
 namespace alula::render::raster {
@@ -47,12 +48,18 @@ void DrawPolygon(const Kernels& kernels, const Target& target, const std::vector
   }
 }
 
-std::uint16_t ToTexel(float nearness) { return static_cast<std::uint16_t>(std::ceil((1.0F - nearness) * 65535.0F)); }
+/// 65535 on the rim: what lies beyond the map looks up its edge and finds light.
+std::uint32_t TexelAt(const Target& target, int x, int y) {
+  constexpr int kLast = kShadowSide - 1;
+  if (x == 0 || y == 0 || x >= kLast || y >= kLast) return 65535;
+  const int tile = y / kTile * target.tiles_x + x / kTile;
+  const float nearness = target.inverse_depth[tile * kTile * kTile + y % kTile * kTile + x % kTile];
+  return static_cast<std::uint32_t>(std::ceil((1.0F - nearness) * 65535.0F));
+}
 
 }  // namespace
 
-std::vector<std::uint16_t> DrawShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame,
-                                         const Kernels& kernels) {
+Words DrawShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame, const Kernels& kernels) {
   VisibilityBuffer buffer;
   const Target target = buffer.Clear(kShadowSide, kShadowSide, 0.0F, false);
   const Vertices& v = scene.vertices();
@@ -77,11 +84,10 @@ std::vector<std::uint16_t> DrawShadowMap(const RasterScene& scene, const interna
       DrawPolygon(kernels, target, polygon, triangle);
     }
   }
-  std::vector<std::uint16_t> map(static_cast<std::size_t>(kShadowSide) * kShadowSide, 65535);
-  for (std::size_t y = 1; y + 1 < kShadowSide; ++y) {
-    for (std::size_t x = 1; x + 1 < kShadowSide; ++x) {
-      const std::size_t tile = y / kTile * static_cast<std::size_t>(target.tiles_x) + x / kTile;
-      map[y * kShadowSide + x] = ToTexel(target.inverse_depth[tile * kTile * kTile + y % kTile * kTile + x % kTile]);
+  Words map(static_cast<std::size_t>(kShadowSide) * kShadowSide);
+  for (int y = 0; y < kShadowSide; ++y) {
+    for (int x = 0; x < kShadowSide; ++x) {
+      map[Morton(x, y)] = TexelAt(target, x, y) | TexelAt(target, x, y + 1) << 16;
     }
   }
   return map;
