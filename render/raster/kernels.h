@@ -62,13 +62,14 @@ struct ScreenTriangle {
 /// so that a walk in any direction meets few lines and pages; smaller levels first: side 2^k begins at (4^k − 1) / 3,
 /// which is 0x55555555 >> (32 − 2k).
 struct TextureView {
-  std::uint32_t offset;  // of the first word
-  std::int32_t width;    // texels of level 0
-  std::int32_t height;
+  std::uint32_t offset;      // of the first word
+  std::int32_t last_column;  // texels of level 0 less one: all ones
+  std::int32_t last_row;
   std::int32_t last_level;  // level l has k = last_level − l
 };
 
-/// Attributes over depth as planes over the picture, relative to a pixel that the triangle covers.
+/// Attributes (texture coordinates in texels of level 0) over depth as planes over the picture, relative to a pixel
+/// that the triangle covers.
 struct alignas(64) TrianglePlanes {
   float at[kAttributes];
   float by_x[kAttributes];

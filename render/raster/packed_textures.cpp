@@ -20,8 +20,8 @@ void Append(PackedTextures& packed, const std::vector<TextureLevel>& levels, int
   const TextureLevel& top = levels.front();
   TextureView view{};
   view.offset = static_cast<std::uint32_t>(packed.words[0].size());
-  view.width = top.width;
-  view.height = top.height;
+  view.last_column = top.width - 1;
+  view.last_row = top.height - 1;
   view.last_level = static_cast<std::int32_t>(levels.size()) - 1;
   const std::size_t length = ((std::size_t{4} << (2 * view.last_level)) - 1) / 3;  // of all levels together
   for (int channel = 0; channel < channels; ++channel) {
