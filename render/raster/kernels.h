@@ -11,6 +11,8 @@ inline constexpr int kAttributes = 8;       // floats a vertex: 1, u, v, light i
 inline constexpr std::int32_t kNearer = 1;  // flag of a vertex nearer than the near plane
 inline constexpr std::int32_t kBeyond = 2;  // flag of a vertex beyond the guard band
 
+inline constexpr std::int32_t kFlagged = INT32_MIN;
+
 /// Vertices in the world and as a view sees them; arrays of one length, padded by seven.
 struct Vertices {
   const float* x;  // m, world axes
@@ -21,7 +23,7 @@ struct Vertices {
   float* column;
   float* depth;           // m, along the optical axis
   float* inverse_depth;   // 1/m
-  std::int32_t* pixel_x;  // 1/256 px; pixel centres are whole pixels
+  std::int32_t* pixel_x;  // 1/256 px; pixel centres are whole pixels; kFlagged where flags are set
   std::int32_t* pixel_y;
   std::int32_t* flags;
 };
@@ -40,8 +42,8 @@ struct Target {
 
 /// Triangles of one batch, drawn in their order.
 struct DrawJob {
-  const std::uint32_t* indices;  // three a triangle, of the whole scene
-  std::uint32_t first;           // triangle
+  const std::uint32_t* corners[3];  // first, second and third corners of all triangles, padded by seven
+  std::uint32_t first;              // triangle
   std::uint32_t count;
   Vertices vertices;
   Target target;
@@ -84,7 +86,7 @@ struct alignas(64) TrianglePlanes {
 struct ShadeJob {
   Target target;
   Vertices vertices;
-  const std::uint32_t* indices;
+  const std::uint32_t* corners[3];
   const std::uint32_t* texture_of_triangle;
   TrianglePlanes* planes;  // one a triangle of the scene
   std::uint32_t frame;     // never the same twice

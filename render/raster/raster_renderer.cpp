@@ -6,6 +6,7 @@
 #include "render/internal/projection.h"
 #include "render/internal/sky.h"
 #include "render/internal/visible_order.h"
+#include "render/raster/occlusion.h"
 #include "render/raster/shadow_map.h"
 
 namespace alula::render::raster {
@@ -75,11 +76,16 @@ Target RasterRenderer::DrawView(const View& view, bool with_ids) {
   const std::span<const internal::Batch> boxes(scene_.boxes());
   const std::size_t drawn = view.draw_movers ? boxes.size() : scene_.statics();
   for (const std::uint32_t number : internal::VisibleOrder(boxes.first(drawn), &frustum, view.X_WC.p)) {
+    if (IsHidden(boxes[number], m, target)) continue;
     const RasterScene::Part& part = scene_.parts()[number];
     kernels_->transform(scene_.vertices(), part.first_vertex, part.vertices, m.data(),
                         static_cast<float>(internal::kNear));
     to_clip_.resize(std::max<std::size_t>(to_clip_.size(), part.triangles));
-    const DrawJob job{scene_.indices().data(), part.first_triangle, part.triangles, scene_.vertices(), target,
+    const DrawJob job{{scene_.corners(0), scene_.corners(1), scene_.corners(2)},
+                      part.first_triangle,
+                      part.triangles,
+                      scene_.vertices(),
+                      target,
                       to_clip_.data()};
     const std::uint32_t count = kernels_->draw(job);
     for (std::uint32_t i = 0; i < count; ++i) DrawClipped(target, to_clip_[i]);
@@ -92,7 +98,7 @@ void RasterRenderer::DrawClipped(const Target& target, std::uint32_t number) {
   std::array<Corner, 3> corners;
   std::array<base::Vec3, 3> p;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint32_t c = scene_.indices()[3UL * number + i];
+    const std::uint32_t c = scene_.corners(static_cast<int>(i))[number];
     p[i] = {v.column[c], v.row[c], v.depth[c]};
     corners[i] = {p[i].x(), p[i].y(), p[i].z(), v.flags[c] == 0, v.pixel_x[c], v.pixel_y[c]};
   }
@@ -131,7 +137,7 @@ void RasterRenderer::Paint(const View& view, int channels, Picture& out) {
   ShadeJob job{};
   job.target = DrawView(view, true);
   job.vertices = scene_.vertices();
-  job.indices = scene_.indices().data();
+  for (int i = 0; i < 3; ++i) job.corners[i] = scene_.corners(i);
   job.texture_of_triangle = scene_.texture_of_triangle().data();
   job.planes = planes_.data();
   job.frame = ++frame_;

@@ -33,13 +33,19 @@ Lighting LightingOf(const worlds::Light& light, const internal::ShadowFrame& fra
 RasterScene::RasterScene(internal::SceneGeometry geometry, const Lighting& lighting)
     : geometry_(std::move(geometry)), lighting_(lighting), boxes_(geometry_.statics) {
   boxes_.insert(boxes_.end(), geometry_.movers.begin(), geometry_.movers.end());
-  texture_of_triangle_.resize(triangles());
+  const std::size_t triangles = geometry_.indices.size() / 3;
+  texture_of_triangle_.resize(triangles);
+  for (std::size_t i = 0; i < 3; ++i) {
+    corners_[i].assign(triangles + kTile, 0);
+    for (std::size_t t = 0; t < triangles; ++t) corners_[i][t] = geometry_.indices[3 * t + i];
+  }
   for (const internal::Batch& batch : boxes_) {
     const Part part = PartOf(geometry_, batch);
     parts_.push_back(part);
     std::fill_n(texture_of_triangle_.begin() + static_cast<std::ptrdiff_t>(part.first_triangle), part.triangles,
                 static_cast<std::uint32_t>(batch.material));
   }
+  geometry_.indices = {};
   PointAtArrays();
   for (std::size_t i = 0; i < geometry_.vertices.size(); ++i) {
     Place(i, geometry_.vertices[i].position, geometry_.vertices[i].normal);

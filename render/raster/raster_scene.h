@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <span>
 #include <vector>
 
@@ -40,8 +41,9 @@ class RasterScene {
   const std::vector<internal::Batch>& boxes() const { return boxes_; }
   const std::vector<Part>& parts() const { return parts_; }
   std::size_t statics() const { return geometry_.statics.size(); }
-  std::size_t triangles() const { return geometry_.indices.size() / 3; }
-  const std::vector<std::uint32_t>& indices() const { return geometry_.indices; }
+  std::size_t triangles() const { return texture_of_triangle_.size(); }
+  /// First (0), second or third corners of all triangles.
+  const std::uint32_t* corners(int i) const { return corners_[static_cast<std::size_t>(i)].data(); }
   const std::vector<std::uint32_t>& texture_of_triangle() const { return texture_of_triangle_; }
   /// The view's arrays are shared by all views: each transforms anew what it draws.
   const Vertices& vertices() const { return vertices_; }
@@ -55,6 +57,7 @@ class RasterScene {
   std::vector<internal::Batch> boxes_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> texture_of_triangle_;
+  std::array<std::vector<std::uint32_t>, 3> corners_;
   std::vector<float> floats_;  // x, y, z, attributes, column, row, depth, inverse depth, one after another
   std::vector<std::int32_t> integers_;
   Vertices vertices_{};

@@ -70,7 +70,7 @@ Words DrawShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame
       std::array<base::Vec3, 3> p;  // texels, texels, nearness
       std::array<Corner, 3> corners;
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t vertex = scene.indices()[3UL * t + i];
+        const std::uint32_t vertex = scene.corners(static_cast<int>(i))[t];
         const Eigen::Vector4d at(v.x[vertex], v.y[vertex], v.z[vertex], 1.0);
         p[i] = (frame.texture_from_world * at).head<3>();
         p[i] = {p[i].x() * kShadowSide - 0.5, p[i].y() * kShadowSide - 0.5, 1.0 - p[i].z()};
