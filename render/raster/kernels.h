@@ -35,9 +35,15 @@ struct Target {
   int tiles_x;
   int tiles_y;
   float* inverse_depth;    // 1/m, larger is nearer
-  std::uint32_t* ids;      // number of the triangle + 1; 0: nothing; null where nobody asks
+  std::uint32_t* ids;      // place in the list of drawn triangles + 1; 0: nothing; null where nobody asks
   float* tile_farthest;    // a lower bound of inverse_depth for each tile
   std::int32_t* tile_age;  // changes since that bound was made
+};
+
+/// Triangles that a picture has drawn: short beside the scene, so that what belongs to them stays in the caches.
+struct DrawnList {
+  std::uint32_t* numbers;  // in the scene; room for all of its triangles
+  std::uint32_t count;
 };
 
 /// Triangles of one batch, drawn in their order.
@@ -47,6 +53,7 @@ struct DrawJob {
   std::uint32_t count;
   Vertices vertices;
   Target target;
+  DrawnList* drawn;        // appended to
   std::uint32_t* to_clip;  // out: numbers of the triangles that the caller must clip; room for `count`
 };
 
@@ -80,7 +87,8 @@ struct alignas(64) TrianglePlanes {
   float reference_y;
   std::uint32_t frame;  // that they were made for
   std::uint32_t texture;
-  std::uint32_t unused[4];
+  bool sunny;  // the sun adds light somewhere on it
+  std::uint8_t unused[15];
 };
 
 struct ShadeJob {
@@ -88,8 +96,9 @@ struct ShadeJob {
   Vertices vertices;
   const std::uint32_t* corners[3];
   const std::uint32_t* texture_of_triangle;
-  TrianglePlanes* planes;  // one a triangle of the scene
-  std::uint32_t frame;     // never the same twice
+  const std::uint32_t* drawn;  // numbers of the triangles that the target's ids speak of
+  TrianglePlanes* planes;      // one each, made when first needed
+  std::uint32_t frame;         // never the same twice
   const TextureView* textures;
   const std::uint32_t* words[3];    // by channel
   const std::uint32_t* shadow_map;  // distances from the sun of texels (x, y), low half, and (x, y + 1); Morton order

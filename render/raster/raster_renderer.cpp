@@ -52,7 +52,7 @@ RasterRenderer::RasterRenderer(const Kernels& kernels, internal::SceneGeometry g
       shadow_frame_(internal::FrameShadow(world, geometry.low, geometry.high)),
       scene_(std::move(geometry), LightingOf(world.light, shadow_frame_)),
       shadow_map_(DrawShadowMap(scene_, shadow_frame_, kernels)),
-      planes_(scene_.triangles()) {}
+      drawn_numbers_(scene_.triangles()) {}
 
 void RasterRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
   const std::size_t movers = scene_.parts().size() - scene_.statics();
@@ -71,6 +71,7 @@ const PackedTextures& RasterRenderer::Textures(int channels) {
 Target RasterRenderer::DrawView(const View& view, bool with_ids) {
   const Target target =
       buffer_.Clear(view.intrinsics.width, view.intrinsics.height, static_cast<float>(1.0 / internal::kFar), with_ids);
+  drawn_ = {drawn_numbers_.data(), 0};
   const std::array<float, 12> m = PixelFromWorld(view);
   const internal::Frustum frustum = internal::FrustumOf(internal::ClipFromWorld(view));
   const std::span<const internal::Batch> boxes(scene_.boxes());
@@ -86,6 +87,7 @@ Target RasterRenderer::DrawView(const View& view, bool with_ids) {
                       part.triangles,
                       scene_.vertices(),
                       target,
+                      &drawn_,
                       to_clip_.data()};
     const std::uint32_t count = kernels_->draw(job);
     for (std::uint32_t i = 0; i < count; ++i) DrawClipped(target, to_clip_[i]);
@@ -115,7 +117,8 @@ void RasterRenderer::DrawClipped(const Target& target, std::uint32_t number) {
   triangle.plane[2] = normal.y() / volume;
   triangle.low = static_cast<float>(1.0 / farthest->depth);
   triangle.high = static_cast<float>(1.0 / nearest->depth);
-  triangle.id = number + 1;
+  drawn_.numbers[drawn_.count++] = number;
+  triangle.id = drawn_.count;
   for (std::size_t i = 2; i < polygon_.size(); ++i) {
     const Corner* fan[3] = {&polygon_[0], &polygon_[i], &polygon_[i - 1]};  // front faces turn the other way
     for (int k = 0; k < 3; ++k) {
@@ -139,6 +142,8 @@ void RasterRenderer::Paint(const View& view, int channels, Picture& out) {
   job.vertices = scene_.vertices();
   for (int i = 0; i < 3; ++i) job.corners[i] = scene_.corners(i);
   job.texture_of_triangle = scene_.texture_of_triangle().data();
+  if (planes_.size() < drawn_.count) planes_.resize(drawn_.count);
+  job.drawn = drawn_.numbers;
   job.planes = planes_.data();
   job.frame = ++frame_;
   job.textures = textures.views.data();

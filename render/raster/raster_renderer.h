@@ -41,9 +41,11 @@ class RasterRenderer final : public CameraRenderer {
   Words shadow_map_;
   std::optional<PackedTextures> grey_;
   std::optional<PackedTextures> colour_;
-  std::vector<TrianglePlanes> planes_;  // one a triangle of the scene
   std::uint32_t frame_ = 0;
   // Scratch of a picture.
+  std::vector<std::uint32_t> drawn_numbers_;
+  DrawnList drawn_{};
+  std::vector<TrianglePlanes> planes_;
   VisibilityBuffer buffer_;
   std::vector<std::uint32_t> to_clip_;
   std::vector<Corner> polygon_;
