@@ -10,6 +10,8 @@ namespace {
 #include "render/raster/lanes_avx2.inc"
 #include "render/raster/transform.inc"
 #include "render/raster/draw.inc"
+#include "render/raster/fragments.inc"
+#include "render/raster/sampling.inc"
 #include "render/raster/shade.inc"
 // clang-format on
 

@@ -8,12 +8,21 @@ namespace {
 
 using internal::TextureLevel;
 
-std::uint32_t Pack(const TextureLevel& level, int channels, int channel, int x, int y) {
-  const auto texel = [&](int column, int row) {
-    const auto wrapped = static_cast<std::size_t>((row % level.height) * level.width + column % level.width);
-    return std::uint32_t{level.bytes[wrapped * static_cast<std::size_t>(channels) + static_cast<std::size_t>(channel)]};
+/// One level's words of one channel, from `words` on.
+void Pack(const TextureLevel& level, int channels, int channel, std::uint32_t* words) {
+  const auto row_of = [&](int y) {
+    return level.bytes.data() + (y & (level.height - 1)) * level.width * channels + channel;
   };
-  return texel(x, y) | texel(x, y + 1) << 8 | texel(x + 1, y) << 16 | texel(x + 1, y + 1) << 24;
+  for (int y = 0; y < level.height; ++y) {
+    const std::uint8_t* row = row_of(y);
+    const std::uint8_t* above = row_of(y + 1);
+    for (int x = 0; x < level.width; ++x) {
+      const int here = x * channels;
+      const int right = ((x + 1) & (level.width - 1)) * channels;  // sides are powers of two
+      words[Morton(x, y)] = std::uint32_t{row[here]} | std::uint32_t{above[here]} << 8 |
+                            std::uint32_t{row[right]} << 16 | std::uint32_t{above[right]} << 24;
+    }
+  }
 }
 
 void Append(PackedTextures& packed, const std::vector<TextureLevel>& levels, int channels) {
@@ -29,10 +38,7 @@ void Append(PackedTextures& packed, const std::vector<TextureLevel>& levels, int
     words.resize(words.size() + length, 0);
     int k = view.last_level;
     for (const TextureLevel& level : levels) {
-      const std::size_t start = view.offset + ((std::size_t{1} << (2 * k--)) - 1) / 3;
-      for (int y = 0; y < level.height; ++y) {
-        for (int x = 0; x < level.width; ++x) words[start + Morton(x, y)] = Pack(level, channels, channel, x, y);
-      }
+      Pack(level, channels, channel, words.data() + view.offset + ((std::size_t{1} << (2 * k--)) - 1) / 3);
     }
   }
   packed.views.push_back(view);
