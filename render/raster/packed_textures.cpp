@@ -34,7 +34,7 @@ void Append(PackedTextures& packed, const std::vector<TextureLevel>& levels, int
   view.last_level = static_cast<std::int32_t>(levels.size()) - 1;
   const std::size_t length = ((std::size_t{4} << (2 * view.last_level)) - 1) / 3;  // of all levels together
   for (int channel = 0; channel < channels; ++channel) {
-    Words& words = packed.words[static_cast<std::size_t>(channel)];
+    std::vector<std::uint32_t>& words = packed.words[static_cast<std::size_t>(channel)];
     words.resize(words.size() + length, 0);
     int k = view.last_level;
     for (const TextureLevel& level : levels) {

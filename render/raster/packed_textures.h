@@ -6,7 +6,6 @@
 
 #include "geometry/material.h"
 #include "render/raster/kernels.h"
-#include "render/raster/page_allocator.h"
 
 namespace alula::render::raster {
 
@@ -14,7 +13,7 @@ namespace alula::render::raster {
 /// t(x+1, y+1), lowest byte first; wrapped), so that a bilinear sample is one load.
 struct PackedTextures {
   std::vector<TextureView> views;  // one a material
-  std::array<Words, 3> words;
+  std::array<std::vector<std::uint32_t>, 3> words;
 };
 
 /// `channels`: 1 (luma) or 3 (RGB). Throws base::FaultError as TextureLevels does.

@@ -8,7 +8,6 @@
 #include "render/camera_renderer.h"
 #include "render/raster/clipper.h"
 #include "render/raster/packed_textures.h"
-#include "render/raster/page_allocator.h"
 #include "render/raster/raster_scene.h"
 #include "render/raster/visibility_buffer.h"
 
@@ -38,7 +37,7 @@ class RasterRenderer final : public CameraRenderer {
   worlds::Light light_;
   internal::ShadowFrame shadow_frame_;
   RasterScene scene_;
-  Words shadow_map_;
+  std::vector<std::uint32_t> shadow_map_;
   std::optional<PackedTextures> grey_;
   std::optional<PackedTextures> colour_;
   std::uint32_t frame_ = 0;

@@ -59,7 +59,8 @@ std::uint32_t TexelAt(const Target& target, int x, int y) {
 
 }  // namespace
 
-Words DrawShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame, const Kernels& kernels) {
+std::vector<std::uint32_t> DrawShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame,
+                                         const Kernels& kernels) {
   VisibilityBuffer buffer;
   const Target target = buffer.Clear(kShadowSide, kShadowSide, 0.0F, false);
   const Vertices& v = scene.vertices();
@@ -84,7 +85,7 @@ Words DrawShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame
       DrawPolygon(kernels, target, polygon, triangle);
     }
   }
-  Words map(static_cast<std::size_t>(kShadowSide) * kShadowSide);
+  std::vector<std::uint32_t> map(static_cast<std::size_t>(kShadowSide) * kShadowSide);
   for (int y = 0; y < kShadowSide; ++y) {
     for (int x = 0; x < kShadowSide; ++x) {
       map[Morton(x, y)] = TexelAt(target, x, y) | TexelAt(target, x, y + 1) << 16;
