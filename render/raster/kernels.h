@@ -19,11 +19,11 @@ struct Vertices {
   const float* y;
   const float* z;
   const float* attributes;  // [kAttributes] a vertex
-  float* row;               // homogeneous image coordinates, m·px: column = row[0]/w … see Transform
-  float* column;
-  float* depth;           // m, along the optical axis
-  float* inverse_depth;   // 1/m
-  std::int32_t* pixel_x;  // 1/256 px; pixel centres are whole pixels; kFlagged where flags are set
+  float* row;               // m·px: row / depth is the place in the picture
+  float* column;            // likewise
+  float* depth;             // m, along the optical axis
+  float* inverse_depth;     // 1/m
+  std::int32_t* pixel_x;    // 1/256 px; pixel centres are whole pixels; kFlagged where flags are set
   std::int32_t* pixel_y;
   std::int32_t* flags;
 };
