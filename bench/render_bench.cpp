@@ -1,5 +1,6 @@
-// What a picture costs: grey stereo pair, depth and colour by maker, on a yard of about 25 k triangles of our own and
-// on the courtyard of the first mission. One core (LP_NUM_THREADS=0 as the program sets it); medians of CPU time.
+// What a picture costs: grey stereo pair, depth and colour by maker, on a yard of about 25 k triangles of our own, on
+// the courtyard of the first mission, and on a hall and a forest of 90 k triangles. One core (LP_NUM_THREADS=0 as the
+// program sets it); medians of CPU time.
 #include <algorithm>
 #include <cmath>
 #include <ctime>
@@ -9,26 +10,18 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "bench/bench.h"
+#include "bench/synthetic_worlds.h"
 #include "render/camera_renderer.h"
 #include "render/sensor_effects.h"
 #include "worlds/courtyard.h"
 
 namespace alula::bench {
 namespace {
-geometry::Material Noisy(const char* name, std::uint64_t seed) {
-  auto texture = std::make_shared<geometry::Texture>();
-  texture->width = texture->height = 512;
-  base::RandomStream random(seed, name);
-  while (texture->rgb.size() < 3UL * 512 * 512) {
-    texture->rgb.insert(texture->rgb.end(), 3, static_cast<std::uint8_t>(60 + random.Index(120)));
-  }
-  return {name, Eigen::Vector3f::Ones(), texture};
-}
-
 /// 30 m × 20 m: ground, walls, 14 trees of balls, 30 crates, 5 gates.
 worlds::World Yard() {
   worlds::World world;
-  world.materials = {Noisy("ground", 1), Noisy("wall", 2), Noisy("leaf", 3), Noisy("crate", 4)};
+  world.materials = {NoisyMaterial("ground", 1), NoisyMaterial("wall", 2), NoisyMaterial("leaf", 3),
+                     NoisyMaterial("crate", 4)};
   world.light.to_sun_W = base::Vec3(0.4, -0.5, 0.8).normalized();
   const auto box = [&world](base::Vec3 at, base::Vec3 half, int material) {
     world.objects.push_back({"box", geometry::Box{half}, {base::Quat::Identity(), at}, material, 2.0, true});
@@ -102,12 +95,16 @@ void Measure(const std::string& name, const worlds::World& world, const std::str
     renderer->Grey(LapView(0), left);
   });
   figures.Add(key + "making_and_first_picture_ms", making);
-  figures.Add(key + "stereo_pair_640x480_ms", MedianMs(kLap, [&](int n) {
-                render::View view = LapView(n);
-                renderer->Grey(view, left);
-                view.X_WC = view.X_WC * base::Transform{base::Quat::Identity(), {0.11, 0, 0}};
-                renderer->Grey(view, right);
-              }));
+  for (const int width : {640, 752}) {
+    figures.Add(key + "stereo_pair_" + std::to_string(width) + "x480_ms", MedianMs(kLap, [&](int n) {
+                  render::View view = LapView(n);
+                  view.intrinsics.width = width;
+                  view.intrinsics.cx = 0.5 * (width - 1);
+                  renderer->Grey(view, left);
+                  view.X_WC = view.X_WC * base::Transform{base::Quat::Identity(), {0.11, 0, 0}};
+                  renderer->Grey(view, right);
+                }));
+  }
   figures.Add(key + "depth_640x480_ms", MedianMs(kLap, [&](int n) { renderer->Depth(LapView(n), depth); }));
   figures.Add(key + "colour_1280x720_ms", MedianMs(kLap / 2, [&](int n) {
                 render::View view = LapView(2 * n);
@@ -119,13 +116,12 @@ void Measure(const std::string& name, const worlds::World& world, const std::str
 }  // namespace
 
 void Run_render(Figures& figures) {
-  for (const auto& [name, world] : {std::pair{"yard", Yard()}, {"courtyard", worlds::MakeCourtyard({}, 1)}}) {
-    double triangles = 0.0;
-    for (const worlds::Object& object : world.objects) {
-      triangles += static_cast<double>(geometry::Tessellate(object.shape).triangles.size());
-    }
-    figures.Add(std::string("render/") + name + "/world/triangles_1", triangles);
-    for (const char* maker : {"osmesa", "egl"}) {
+  for (const auto& [name, world] : {std::pair{"yard", Yard()},
+                                    {"courtyard", worlds::MakeCourtyard({}, 1)},
+                                    {"synthetic_hall", SyntheticHall(1)},
+                                    {"synthetic_forest", SyntheticForest(1)}}) {
+    figures.Add(std::string("render/") + name + "/world/triangles_1", TrianglesOf(world));
+    for (const char* maker : {"osmesa", "egl", "raster"}) {
       try {
         Measure(name, world, maker, figures);
       } catch (const base::InputError&) {

@@ -58,8 +58,8 @@ class CameraRenderer {
   virtual std::string Description() const = 0;
 };
 
-/// `maker`: "osmesa", "egl", or "auto" (OSMesa where it is there, else EGL). Throws base::InputError for another word
-/// or where the maker is not available.
+/// `maker`: "osmesa", "egl", "raster" (our own, on any processor, fast with AVX2), or "auto" (OSMesa where it is there,
+/// else EGL). Throws base::InputError for another word or where the maker is not available.
 std::unique_ptr<CameraRenderer> MakeRenderer(std::string_view maker, const worlds::World& world,
                                              std::span<const Mover> movers);
 

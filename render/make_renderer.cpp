@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "render/camera_renderer.h"
 #include "render/internal/gl_renderer.h"
+#include "render/raster/raster_renderer.h"
 
 namespace alula::render {
 namespace {
@@ -9,13 +10,17 @@ std::unique_ptr<internal::GlContext> MakeContext(std::string_view maker) {
   if (maker == "osmesa") return internal::MakeOsMesaContext();
   if (maker == "egl") return internal::MakeEglContext();
   if (maker == "auto") return internal::HasOsMesa() ? internal::MakeOsMesaContext() : internal::MakeEglContext();
-  throw base::InputError("renderer \"" + std::string(maker) + "\" is not known; it can be osmesa, egl or auto");
+  throw base::InputError("renderer \"" + std::string(maker) + "\" is not known; it can be osmesa, egl, raster or auto");
 }
 
 }  // namespace
 
 std::unique_ptr<CameraRenderer> MakeRenderer(std::string_view maker, const worlds::World& world,
                                              std::span<const Mover> movers) {
+  if (maker == "raster") {
+    const raster::Kernels* avx2 = raster::Avx2KernelsOrNull();
+    return std::make_unique<raster::RasterRenderer>(avx2 != nullptr ? *avx2 : raster::ScalarKernels(), world, movers);
+  }
   return std::make_unique<internal::GlRenderer>(MakeContext(maker), world, movers, internal::GlRenderer::Options{});
 }
 

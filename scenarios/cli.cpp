@@ -29,8 +29,9 @@ CLI::App* AddRun(CLI::App& app, CommandLine& line, Raw& raw) {
   run->add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
   run->add_option("--out", raw.out, "folder of the run's files (default: runs/<scenario>/<seed>)");
   run->add_option("--workers", line.workers, "threads inside the run; they change no result")->check(CLI::Range(1, 64));
-  run->add_option("--render", line.render, "who draws the pictures: osmesa, egl or auto")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl"}));
+  run->add_option("--render", line.render,
+                  "who draws the pictures: osmesa, egl, raster (our own, on the processor) or auto")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "raster"}));
   run->add_flag("--video", line.video, "film the run into video.mp4 of its folder (1280x720, 30 pictures a second)");
   run->add_flag("--quiet", line.quiet, "print the last line only");
   run->add_flag("--json", line.json, "print verdict.json instead of the table");

@@ -2,13 +2,10 @@
 
 #include "base/error.h"
 #include "render/internal/shaders.h"
+#include "render/internal/sky.h"
 
 namespace alula::render::internal {
 namespace {
-
-Eigen::Vector3f Luma(const Eigen::Vector3f& rgb) {
-  return Eigen::Vector3f::Constant(0.299F * rgb[0] + 0.587F * rgb[1] + 0.114F * rgb[2]);
-}
 
 std::string Describe(const GlContext& context) {
   const auto text = [&context](GLenum name) {
@@ -136,14 +133,12 @@ void GlRenderer::DrawSky(const View& view, int channels) {
   rays.col(0) = middle;
   rays.col(1) = RayDirection(view, right, 0.5 * (bottom - 0.5)) - middle;
   rays.col(2) = RayDirection(view, 0.5 * (right - 0.5), bottom) - middle;
-  const Eigen::Vector3f zenith = light_.sky;
-  const Eigen::Vector3f horizon = 0.45F * light_.sky + Eigen::Vector3f::Constant(0.52F);
-  const Eigen::Vector3f ground = 0.35F * light_.sky + Eigen::Vector3f::Constant(0.1F);
+  const SkyColours colours = SkyOf(light_, channels);
   sky_->Use();
   sky_->Set("rays", rays);
-  sky_->Set("zenith", channels == 1 ? Luma(zenith) : zenith);
-  sky_->Set("horizon", channels == 1 ? Luma(horizon) : horizon);
-  sky_->Set("ground", channels == 1 ? Luma(ground) : ground);
+  sky_->Set("zenith", colours.zenith);
+  sky_->Set("horizon", colours.horizon);
+  sky_->Set("ground", colours.ground);
   const GlFunctions& gl = context_->gl();
   gl.Disable(GL_CULL_FACE);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);

@@ -12,19 +12,6 @@ namespace {
 
 using Vertex = geometry::Mesh::Vertex;
 
-/// The world's own bounds where they are given (shadows beyond them do not matter), grown so that walls which stand on
-/// the bounds cast whole shadows; else all that stands in it.
-ShadowFrame ShadowFrameOf(const worlds::World& world, const SceneGeometry& scene) {
-  constexpr double kBeyond = 3.0;  // m
-  base::Vec3 low = scene.low.cast<double>();
-  base::Vec3 high = scene.high.cast<double>();
-  if ((world.bounds_high - world.bounds_low).minCoeff() > 0.0) {
-    low.head<2>() = low.head<2>().cwiseMax((world.bounds_low.head<2>().array() - kBeyond).matrix()).eval();
-    high.head<2>() = high.head<2>().cwiseMin((world.bounds_high.head<2>().array() + kBeyond).matrix()).eval();
-  }
-  return FrameShadow(world.light.to_sun_W, low, high.cwiseMax(low));
-}
-
 GLuint UploadTexture(const GlFunctions& gl, const geometry::Material& material, int channels) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
@@ -50,7 +37,7 @@ GpuScene::GpuScene(const GlFunctions& gl, SceneGeometry geometry, const worlds::
     : gl_(&gl),
       geometry_(std::move(geometry)),
       light_(world.light),
-      shadow_(ShadowFrameOf(world, geometry_)),
+      shadow_(FrameShadow(world, geometry_.low, geometry_.high)),
       grey_textures_(geometry_.materials.size(), 0),
       colour_textures_(geometry_.materials.size(), 0) {
   Upload();
@@ -127,7 +114,6 @@ void GpuScene::DrawShadowMap() {
 }
 
 void GpuScene::Bind(const GlProgram& program) const {
-  constexpr float kTexels = 1.5F;  // along the normal, for the look-up
   gl_->BindVertexArray(vertex_array_);
   gl_->ActiveTexture(GL_TEXTURE1);
   gl_->BindTexture(GL_TEXTURE_2D, shadow_map_);
@@ -136,7 +122,8 @@ void GpuScene::Bind(const GlProgram& program) const {
   program.Set("shadow_map", 1);
   program.SetAffine("shadow_from_world", shadow_.texture_from_world);
   program.Set("to_sun", light_.to_sun_W.normalized().cast<float>().eval());
-  program.Set("light", Eigen::Vector3f(light_.sun, light_.ambient, kTexels * static_cast<float>(shadow_.texel)));
+  program.Set("light",
+              Eigen::Vector3f(light_.sun, light_.ambient, kShadowNormalOffset * static_cast<float>(shadow_.texel)));
 }
 
 GLuint GpuScene::TextureOf(int material, int channels) {

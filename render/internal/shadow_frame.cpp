@@ -39,4 +39,16 @@ ShadowFrame FrameShadow(const base::Vec3& to_sun_W, const base::Vec3& low, const
   return frame;
 }
 
+ShadowFrame FrameShadow(const worlds::World& world, const Eigen::Vector3f& statics_low,
+                        const Eigen::Vector3f& statics_high) {
+  constexpr double kBeyond = 3.0;  // m
+  base::Vec3 low = statics_low.cast<double>();
+  base::Vec3 high = statics_high.cast<double>();
+  if ((world.bounds_high - world.bounds_low).minCoeff() > 0.0) {
+    low.head<2>() = low.head<2>().cwiseMax((world.bounds_low.head<2>().array() - kBeyond).matrix()).eval();
+    high.head<2>() = high.head<2>().cwiseMin((world.bounds_high.head<2>().array() + kBeyond).matrix()).eval();
+  }
+  return FrameShadow(world.light.to_sun_W, low, high.cwiseMax(low));
+}
+
 }  // namespace alula::render::internal

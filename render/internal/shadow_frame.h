@@ -6,7 +6,8 @@
 
 namespace alula::render::internal {
 
-inline constexpr int kShadowSide = 2048;  // texels a side of the static shadow map
+inline constexpr int kShadowSide = 2048;            // texels a side of the static shadow map
+inline constexpr float kShadowNormalOffset = 1.5F;  // texels along the normal, for the look-up
 
 /// The sun's own orthographic camera.
 struct ShadowFrame {
@@ -18,5 +19,9 @@ struct ShadowFrame {
 /// Frames what casts or takes shadows: the box [low, high] (m, world axes) as the sun sees it, with a rim of two
 /// texels.
 ShadowFrame FrameShadow(const base::Vec3& to_sun_W, const base::Vec3& low, const base::Vec3& high);
+
+/// The same for the statics' box: the world's own bounds where they are given (shadows beyond them do not matter),
+/// grown so that walls which stand on the bounds cast whole shadows; else all that stands in it.
+ShadowFrame FrameShadow(const worlds::World& world, const Eigen::Vector3f& low, const Eigen::Vector3f& high);
 
 }  // namespace alula::render::internal

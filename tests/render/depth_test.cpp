@@ -4,11 +4,13 @@
 #include <optional>
 
 #include "render/internal/projection.h"
+#include "tests/render/each_maker.h"
 #include "tests/render/test_scene.h"
 
 namespace alula::render {
 namespace {
 
+using DepthPass = test::EachMaker;
 using test::LookAt;
 
 /// Triangles of the world, cast against one by one: the brute-force twin of the depth pass.
@@ -54,11 +56,11 @@ float At(const DepthPicture& picture, int u, int v) {
   return picture.metres[static_cast<std::size_t>(v * picture.width + u)];
 }
 
-TEST(Depth, PlaneInClosedForm) {
+TEST_P(DepthPass, PlaneInClosedForm) {
   worlds::World world;
   world.materials = {test::Plain(0.5F)};
   test::AddBox(world, {base::Quat::Identity(), {0, 0, -0.5}}, {300, 300, 0.5}, 0);
-  const auto renderer = MakeRenderer("auto", world, {});
+  const auto renderer = Make(world);
   const View view = LookAt({0.3, -0.2, 1.5}, {4, 1, 0.4}, 0.2);
   DepthPicture depth;
   renderer->Depth(view, depth);
@@ -78,13 +80,13 @@ TEST(Depth, PlaneInClosedForm) {
   EXPECT_LT(worst, 2e-4);  // single precision of 1/w at 10 m is 1e-5 m; the rest is vertex rounding
 }
 
-TEST(Depth, SphereInClosedFormToItsTessellation) {
+TEST_P(DepthPass, SphereInClosedFormToItsTessellation) {
   worlds::World world;
   world.materials = {test::Plain(0.5F)};
   constexpr double kRadius = 0.8;
   const base::Vec3 centre(3.0, 0.2, 1.0);
   world.objects.push_back({"sphere", geometry::Sphere{kRadius}, {base::Quat::Identity(), centre}, 0, 1.0, true});
-  const auto renderer = MakeRenderer("auto", world, {});
+  const auto renderer = Make(world);
   const View view = LookAt({0, 0, 1.2}, {3, 0, 1});
   DepthPicture depth;
   renderer->Depth(view, depth);
@@ -109,10 +111,10 @@ TEST(Depth, SphereInClosedFormToItsTessellation) {
 
 // Shapes of every kind at random poses, from random poses, against ray casts. Pixels on an outline (where rays 0.02 px
 // apart see different things) are left out.
-TEST(Depth, AgreesWithRayCastsOnRandomPoses) {
+TEST_P(DepthPass, AgreesWithRayCastsOnRandomPoses) {
   const worlds::World world = test::Clutter(11);
   const TriangleSoup soup(world);
-  const auto renderer = MakeRenderer("auto", world, {});
+  const auto renderer = Make(world);
   base::RandomStream random(5, "depth");
   int compared = 0;
   int left_out = 0;
@@ -143,6 +145,8 @@ TEST(Depth, AgreesWithRayCastsOnRandomPoses) {
   EXPECT_LT(left_out, 40);
   EXPECT_GT(compared, 1000);
 }
+
+INSTANTIATE_TEST_SUITE_P(Makers, DepthPass, test::kEachMaker);
 
 }  // namespace
 }  // namespace alula::render

@@ -3,11 +3,13 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
+#include "tests/render/each_maker.h"
 #include "tests/render/test_scene.h"
 
 namespace alula::render {
 namespace {
 
+using PinholeProjection = test::EachMaker;
 using test::LookAt;
 using test::Project;
 
@@ -49,8 +51,8 @@ worlds::World Plate() {
 
 // Every pixel centre that lies more than 0.02 px from the analytic outline is on the side that it should be, in both
 // eyes: the outline is drawn where it is to 0.02 px (llvmpipe snaps vertices to 1/256 px).
-TEST(Projection, OutlineLiesWherePinholeEquationsPutItInBothEyes) {
-  const auto renderer = MakeRenderer("auto", Plate(), {});
+TEST_P(PinholeProjection, OutlineLiesWherePinholeEquationsPutItInBothEyes) {
+  const auto renderer = Make(Plate());
   base::RandomStream random(7, "outline");
   for (int trial = 0; trial < 12; ++trial) {
     const base::Vec3 eye(-random.Uniform(1.0, 2.5), random.Uniform(-0.25, 0.25), random.Uniform(-0.35, 0.35));
@@ -81,8 +83,8 @@ TEST(Projection, OutlineLiesWherePinholeEquationsPutItInBothEyes) {
   }
 }
 
-TEST(Projection, CentroidAndDisparityAreSubPixel) {
-  const auto renderer = MakeRenderer("auto", Plate(), {});
+TEST_P(PinholeProjection, CentroidAndDisparityAreSubPixel) {
+  const auto renderer = Make(Plate());
   for (const double distance : {1.2, 1.71, 2.4}) {
     View view = LookAt({-distance, 0.03, 0.02}, {0, 0.03, 0.02}, 0.13);
     Picture left;
@@ -98,10 +100,10 @@ TEST(Projection, CentroidAndDisparityAreSubPixel) {
   }
 }
 
-TEST(Projection, RowsComeFromTheTopAndColumnsFromTheLeft) {
+TEST_P(PinholeProjection, RowsComeFromTheTopAndColumnsFromTheLeft) {
   worlds::World world = Plate();
   test::AddBox(world, {base::Quat::Identity(), {1.0, 3.0, 2.0}}, {0.1, 0.3, 0.3}, 0);  // left and up
-  const auto renderer = MakeRenderer("auto", world, {});
+  const auto renderer = Make(world);
   const View view = LookAt({-4, 0, 0}, {0, 0, 0});
   Picture picture;
   renderer->Grey(view, picture);
@@ -141,6 +143,8 @@ TEST(Projection, ImpossibleCamerasAreBadInput) {
   view.intrinsics.width = 0;
   EXPECT_THROW(internal::CheckView(view), base::InputError);
 }
+
+INSTANTIATE_TEST_SUITE_P(Makers, PinholeProjection, test::kEachMaker);
 
 }  // namespace
 }  // namespace alula::render

@@ -4,11 +4,13 @@
 #include <thread>
 
 #include "base/error.h"
+#include "tests/render/each_maker.h"
 #include "tests/render/test_scene.h"
 
 namespace alula::render {
 namespace {
 
+using AnyRenderer = test::EachMaker;
 using internal::GlRenderer;
 using test::Clutter;
 using test::LookAt;
@@ -49,10 +51,10 @@ std::string MessageOf(const std::function<void()>& act) {
   return "no error";
 }
 
-TEST(Renderer, SameInputsGiveSameBytesFromRendererToRenderer) {
+TEST_P(AnyRenderer, SameInputsGiveSameBytesFromRendererToRenderer) {
   const worlds::World world = Clutter(1);
-  const auto first = MakeRenderer("auto", world, {});
-  const auto second = MakeRenderer("auto", world, {});  // both alive and used in turns
+  const auto first = Make(world);
+  const auto second = Make(world);  // both alive and used in turns
   for (const View& view : SomeViews()) {
     const Seen seen = See(*first, view);
     EXPECT_TRUE(seen == See(*second, view));
@@ -81,7 +83,7 @@ TEST(Renderer, OsMesaAndEglGiveTheSameBytes) {
 }
 
 TEST(Renderer, MayBeUsedFromOneThreadAfterAnother) {
-  for (const char* maker : {"osmesa", "egl"}) {
+  for (const char* maker : {"osmesa", "egl", "raster"}) {
     std::unique_ptr<CameraRenderer> renderer;
     try {
       renderer = MakeRenderer(maker, Clutter(3, 20), {});
@@ -107,11 +109,12 @@ TEST(Renderer, CullingDoesNotChangeThePicture) {
 TEST(Renderer, SaysWhatItIsMadeOf) {
   const auto renderer = MakeRenderer("auto", Clutter(5, 0), {});
   EXPECT_NE(renderer->Description().find("OpenGL"), std::string::npos);
+  EXPECT_EQ(MakeRenderer("raster", {}, {})->Description().substr(0, 7), "raster ");
 }
 
 TEST(Renderer, UnknownAndMissingMakersAreBadInput) {
   EXPECT_EQ(MessageOf([] { MakeRenderer("vulkan", {}, {}); }),
-            "renderer \"vulkan\" is not known; it can be osmesa, egl or auto");
+            "renderer \"vulkan\" is not known; it can be osmesa, egl, raster or auto");
   EXPECT_EQ(MessageOf([] { internal::MakeOsMesaContext({"libOSMesa.so.0"}); }),
             "renderer \"osmesa\" is not available: libOSMesa.so.0 cannot be loaded; install libosmesa6 or choose "
             "\"egl\"");
@@ -119,8 +122,8 @@ TEST(Renderer, UnknownAndMissingMakersAreBadInput) {
             "renderer \"egl\" is not available: libEGL.so.0 cannot be loaded; install libegl1 or choose \"osmesa\"");
 }
 
-TEST(Renderer, EmptyWorldIsSkyThatIsBrightestAtTheHorizon) {
-  const auto renderer = MakeRenderer("auto", {}, {});
+TEST_P(AnyRenderer, EmptyWorldIsSkyThatIsBrightestAtTheHorizon) {
+  const auto renderer = Make({});
   Picture picture;
   renderer->Grey(LookAt({0, 0, 1}, {1, 0, 1.6}), picture);
   const auto row = [&](int v) { return picture.bytes[static_cast<std::size_t>(v * 640 + 320)]; };
@@ -131,14 +134,14 @@ TEST(Renderer, EmptyWorldIsSkyThatIsBrightestAtTheHorizon) {
   EXPECT_TRUE(std::all_of(depth.metres.begin(), depth.metres.end(), [](float m) { return m == 0.0F; }));
 }
 
-TEST(Renderer, MoversStandWhereTheyArePutAndOnlyWhereWanted) {
+TEST_P(AnyRenderer, MoversStandWhereTheyArePutAndOnlyWhereWanted) {
   worlds::World world;
   world.light = test::Shadowless();
   world.materials = {test::Plain(0.2F)};
   test::AddBox(world, {base::Quat::Identity(), {8, 0, 0}}, {0.1, 20, 20}, 0);
   const std::vector<Mover> movers = {{"cube", geometry::Box{base::Vec3::Constant(0.25)}, test::Plain(0.9F)},
                                      {"ball", geometry::Sphere{0.2}, test::Plain(0.6F)}};
-  const auto renderer = MakeRenderer("auto", world, movers);
+  const auto renderer = Make(world, movers);
   View view = LookAt({0, 0, 0}, {1, 0, 0});
   for (const double y : {-1.0, 0.4, 1.1}) {
     const std::vector<base::Transform> poses = {{base::Quat::Identity(), {3, y, 0}},
@@ -157,17 +160,17 @@ TEST(Renderer, MoversStandWhereTheyArePutAndOnlyWhereWanted) {
   view.draw_movers = false;
   renderer->Grey(view, without);
   Picture alone;
-  MakeRenderer("auto", world, {})->Grey(view, alone);
+  Make(world)->Grey(view, alone);
   EXPECT_TRUE(without.bytes == alone.bytes);
   EXPECT_THROW(renderer->PlaceMovers({}), base::FaultError);
 }
 
-TEST(Renderer, FarTexturesFadeToTheirMeanInsteadOfFlickering) {
+TEST_P(AnyRenderer, FarTexturesFadeToTheirMeanInsteadOfFlickering) {
   worlds::World world;
   world.light = test::Shadowless();
   world.materials = {test::Checker(256, 40, 200)};
   test::AddBox(world, {base::Quat::Identity(), {60, 0, 0}}, {0.1, 200, 200}, 0, 0.5);
-  const auto renderer = MakeRenderer("auto", world, {});
+  const auto renderer = Make(world);
   Picture picture;
   renderer->Grey(LookAt({0, 0, 0}, {1, 0, 0}), picture);
   // A period of 0.5 m at 60 m is 3 px, a field 0.4 px: the mean, 120, under a wall's share of the sky light.
@@ -175,7 +178,7 @@ TEST(Renderer, FarTexturesFadeToTheirMeanInsteadOfFlickering) {
   EXPECT_LT(*high - *low, 40);  // of 160 near by
 }
 
-TEST(Renderer, LongAndPlainTexturesAreDrawn) {
+TEST_P(AnyRenderer, LongAndPlainTexturesAreDrawn) {
   auto strip = std::make_shared<geometry::Texture>();
   strip->width = 64;
   strip->height = 2;
@@ -185,22 +188,22 @@ TEST(Renderer, LongAndPlainTexturesAreDrawn) {
   world.materials = {{"strip", Eigen::Vector3f::Ones(), strip}};
   test::AddBox(world, {base::Quat::Identity(), {2, 0, 0}}, {0.1, 20, 20}, 0);
   Picture picture;
-  const auto renderer = MakeRenderer("auto", world, {});
+  const auto renderer = Make(world);
   renderer->Colour(LookAt({0, 0, 0}, {1, 0, 0}), picture);
   EXPECT_EQ(*std::min_element(picture.bytes.begin(), picture.bytes.end()),
             *std::max_element(picture.bytes.begin(), picture.bytes.end()));
   strip->rgb.pop_back();
-  EXPECT_THROW(MakeRenderer("auto", world, {})->Grey(LookAt({0, 0, 0}, {1, 0, 0}), picture), base::FaultError);
+  EXPECT_THROW(Make(world)->Grey(LookAt({0, 0, 0}, {1, 0, 0}), picture), base::FaultError);
 }
 
 // A plate that hovers at 1 m casts its shadow along the sun's ray; elsewhere the ground is evenly lit (no acne).
-TEST(Renderer, ShadowsFallAlongTheSun) {
+TEST_P(AnyRenderer, ShadowsFallAlongTheSun) {
   worlds::World world;
   world.materials = {test::Plain(0.5F)};
   world.light.to_sun_W = base::Vec3(0.5, 0.3, 0.8).normalized();
   test::AddBox(world, {base::Quat::Identity(), {0, 0, -0.5}}, {10, 10, 0.5}, 0);
   test::AddBox(world, {base::Quat::Identity(), {0, 0, 1.0}}, {0.3, 0.3, 0.02}, 0);
-  const auto renderer = MakeRenderer("auto", world, {});
+  const auto renderer = Make(world);
   const View view = LookAt({-3, -0.3, 0.9}, {-0.6, -0.3, 0});
   Picture picture;
   renderer->Grey(view, picture);
@@ -217,6 +220,8 @@ TEST(Renderer, ShadowsFallAlongTheSun) {
     EXPECT_EQ(value(middle.x() + x, middle.y() - 0.36), lit);
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Makers, AnyRenderer, test::kEachMaker);
 
 }  // namespace
 }  // namespace alula::render

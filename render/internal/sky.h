@@ -1,0 +1,15 @@
+#pragma once
+
+#include "worlds/world.h"
+
+namespace alula::render::internal {
+
+/// Colours that the sky runs through, displayed values in [0, 1] (channels 1: luma in all three places).
+struct SkyColours {
+  Eigen::Vector3f zenith;
+  Eigen::Vector3f horizon;
+  Eigen::Vector3f ground;  // below the horizon
+};
+SkyColours SkyOf(const worlds::Light& light, int channels);
+
+}  // namespace alula::render::internal

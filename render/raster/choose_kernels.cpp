@@ -1,0 +1,12 @@
+#include "render/raster/kernels_avx2.h"
+
+namespace alula::render::raster {
+
+const Kernels* Avx2KernelsOrNull() {
+#if defined(__x86_64__)
+  if (__builtin_cpu_supports("avx2")) return Avx2Table();
+#endif
+  return nullptr;
+}
+
+}  // namespace alula::render::raster

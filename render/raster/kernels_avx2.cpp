@@ -1,0 +1,24 @@
+#include "render/raster/kernels_avx2.h"
+
+#include <immintrin.h>
+
+namespace alula::render::raster {
+namespace {
+
+// One text, compiled for two instruction sets; the lanes come first.
+// clang-format off
+#include "render/raster/lanes_avx2.inc"
+#include "render/raster/transform.inc"
+#include "render/raster/draw.inc"
+#include "render/raster/fragments.inc"
+#include "render/raster/sampling.inc"
+#include "render/raster/shade.inc"
+// clang-format on
+
+constexpr Kernels kKernels{"avx2", Transform, Draw, DrawOne, Shade, Metres};
+
+}  // namespace
+
+const Kernels* Avx2Table() { return &kKernels; }
+
+}  // namespace alula::render::raster

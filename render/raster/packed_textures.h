@@ -1,0 +1,22 @@
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "geometry/material.h"
+#include "render/raster/kernels.h"
+
+namespace alula::render::raster {
+
+/// The mip chains of all materials for one kind of picture, 2×2 texels a word (t(x, y), t(x, y+1), t(x+1, y),
+/// t(x+1, y+1), lowest byte first; wrapped), so that a bilinear sample is one load.
+struct PackedTextures {
+  std::vector<TextureView> views;  // one a material
+  std::array<std::vector<std::uint32_t>, 3> words;
+};
+
+/// `channels`: 1 (luma) or 3 (RGB). Throws base::FaultError as TextureLevels does.
+PackedTextures PackTextures(std::span<const geometry::Material> materials, int channels);
+
+}  // namespace alula::render::raster
