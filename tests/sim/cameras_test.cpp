@@ -9,7 +9,6 @@
 #include "base/random.h"
 #include "render/camera_renderer.h"
 #include "sim/physics_world.h"
-#include "sim/sensors/image_taker.h"
 #include "sim/sensors/suite.h"
 #include "tests/sim/test_world.h"
 #include "vehicles/prescribed.h"
@@ -61,27 +60,39 @@ TEST(Cameras, RenderedDepthIsWhereBulletsRaysEnd) {
   EXPECT_LT(different, compared / 50);
 }
 
+/// All pictures of a camera suite that is carried along x, one after another.
+std::vector<std::uint8_t> BytesOf(const SensorsConfig& config, render::CameraRenderer& renderer, int workers) {
+  SensorSuite suite(config, testing::PlateOnLegs(), base::Milliseconds(1), 9, "vehicle0", &renderer, workers);
+  std::vector<std::uint8_t> bytes;
+  std::vector<stack::Measurement> measurements;
+  TruthWindow window{{0}, {0}, testing::At({0, 0, 1}), testing::At({0, 0, 1})};
+  suite.Settle(window.at_end);
+  for (int i = 0; i < 130; ++i) {
+    suite.Measure(window, {});
+    suite.Collect(window.end, measurements);
+    for (const stack::Measurement& m : measurements) {
+      const auto* image = std::get_if<stack::Image>(&m.data);
+      if (image != nullptr) bytes.insert(bytes.end(), image->bytes->begin(), image->bytes->end());
+    }
+    const base::Time next = window.end + base::Milliseconds(1);
+    window = {window.end, next, window.at_end, testing::At({2e-3 * (i + 1), 0, 1})};
+    suite.Integrate(next, window.at_begin, window.at_end);
+  }
+  return bytes;
+}
+
 TEST(Cameras, ThreadChangesNoByte) {
   const worlds::World world = testing::GroundAndCrate();
-  StereoCameraConfig camera;
-  camera.width = 160;
-  camera.height = 120;
+  SensorsConfig config;
+  config.stereo = StereoCameraConfig{};
+  config.stereo->width = 160;
+  config.stereo->height = 120;
+  config.stereo->motion_blur = true;
+  config.stereo->auto_exposure = AutoExposureConfig{};
   const auto renderer = render::MakeRenderer("auto", world, {});
-  const auto shoot = [&](bool own_thread) {
-    ImageTaker taker(camera, 9, "vehicle0", *renderer, own_thread);
-    for (std::uint32_t seq = 0; seq < 3; ++seq) {
-      taker.Request(seq, {seq * 50'000'000}, {base::Quat::Identity(), {0.1 * seq, 0, 1}});
-    }
-    std::vector<std::uint8_t> bytes;
-    for (int i = 0; i < 3; ++i) {
-      for (const stack::Image& image : taker.Fetch())
-        bytes.insert(bytes.end(), image.bytes->begin(), image.bytes->end());
-    }
-    return bytes;
-  };
-  const std::vector<std::uint8_t> here = shoot(false);
+  const std::vector<std::uint8_t> here = BytesOf(config, *renderer, 1);
   EXPECT_EQ(here.size(), 6U * 160 * 120);
-  EXPECT_EQ(here, shoot(true));
+  EXPECT_EQ(here, BytesOf(config, *renderer, 2));
 }
 
 /// A dark ball before a bright sky, high above the ground: its centroid is a landmark to about a
@@ -157,7 +168,7 @@ TEST(Cameras, OpticalFlowAgreesWithGyroAndVelocity) {
   sensors.stereo->noise = {0.0, 0.0};
   const stack::Calibration truth = TrueCalibration(sensors, vehicle->body(), "vehicle0");
   const auto renderer = render::MakeRenderer("auto", world, {});
-  SensorSuite suite(sensors, base::Milliseconds(1), 1, "vehicle0", renderer.get(), 1);
+  SensorSuite suite(sensors, vehicle->body(), base::Milliseconds(1), 1, "vehicle0", renderer.get(), 1);
 
   std::vector<std::pair<base::Time, Vec3>> gyro;
   std::vector<std::pair<base::Time, std::optional<base::Vec2>>> seen;
@@ -175,7 +186,7 @@ TEST(Cameras, OpticalFlowAgreesWithGyroAndVelocity) {
     }
     const base::Time next = window.end + base::Milliseconds(1);
     window = {window.end, next, window.at_end, vehicle->Prescribed(next)};
-    suite.Integrate(window.at_begin, window.at_end);
+    suite.Integrate(next, window.at_begin, window.at_end);
   }
 
   const stack::CameraIntrinsics& k = truth.cameras[0].intrinsics;
