@@ -48,7 +48,8 @@ Exposure PlanExposure(const CameraConfig& config, double focal, const ExposureSe
   const base::Duration half_roll = base::Nanoseconds(config.row_delay.ns * (config.height - 1) / 2);
   int bands = 1;
   if (config.row_delay.ns > 0) {
-    bands = Parts(PixelsTravelled(captured - half_roll, captured + half_roll, focal, at), step,
+    constexpr double kFiner = 0.35;  // a band's rows are off by up to half a step, all to one side: it shows sooner
+    bands = Parts(PixelsTravelled(captured - half_roll, captured + half_roll, focal, at), kFiner * step,
                   std::min(config.height, kMostInstants));
   }
   int instants = 1;

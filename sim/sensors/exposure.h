@@ -31,8 +31,9 @@ struct Exposure {
 /// When an exposure begins and ends: half its length and half the rolling of the rows about `captured`.
 base::Duration HalfSpan(const CameraConfig& config, base::Duration length);
 
-/// Cuts an exposure into bands of rows and instants so that between neighbours nothing 1.5 m away or farther moves more
-/// than `step` px in the picture: without blur one instant a band, without rolling shutter one band.
+/// Cuts an exposure into bands of rows and instants so that between neighbouring instants nothing 1.5 m away or farther
+/// moves more than `step` px in the picture, and between neighbouring bands a third of that: without blur one instant a
+/// band, without rolling shutter one band.
 Exposure PlanExposure(const CameraConfig& config, double focal, const ExposureSetting& setting, base::Time captured,
                       const std::function<Instant(base::Time)>& at, double step = 0.75);
 

@@ -8,9 +8,18 @@
 namespace alula::sim {
 namespace {
 
+/// What exposure and gain make of the light that the nominal exposure is set for.
+double Brightness(const Optics& optics, const ExposureSetting& setting) {
+  return setting.length.Seconds() * setting.gain / optics.config.exposure.Seconds();
+}
+
 /// A band of rows of one picture: the camera with a lower image and its centre moved.
-render::View BandView(const Optics& optics, const Exposure::Slice& slice, const base::Transform& X_WC) {
-  render::View view{.X_WC = X_WC, .intrinsics = optics.intrinsics, .draw_movers = optics.config.sees_vehicle};
+render::View BandView(const Optics& optics, const Exposure::Slice& slice, const base::Transform& X_WC,
+                      double brightness) {
+  render::View view{.X_WC = X_WC,
+                    .intrinsics = optics.intrinsics,
+                    .draw_movers = optics.config.sees_vehicle,
+                    .brightness = static_cast<float>(brightness)};
   view.intrinsics.height = slice.rows;
   view.intrinsics.cy -= slice.first_row;
   return view;
@@ -25,14 +34,14 @@ void Draw(const Optics& optics, const render::View& view, render::CameraRenderer
 }
 
 /// The mean of the pictures at the slice's instants, rounded to nearest.
-void DrawSlice(const Optics& optics, const Exposure::Slice& slice, render::CameraRenderer& renderer,
+void DrawSlice(const Optics& optics, const Exposure::Slice& slice, double brightness, render::CameraRenderer& renderer,
                render::Picture& out) {
   render::Picture instant;
   std::vector<std::uint32_t> sums;
   const auto count = static_cast<std::uint32_t>(slice.instants.size());
   for (const Instant& at : slice.instants) {
     PlaceVehicle(optics, at.X_WB, renderer);
-    Draw(optics, BandView(optics, slice, at.X_WC), renderer, count == 1 ? out : instant);
+    Draw(optics, BandView(optics, slice, at.X_WC, brightness), renderer, count == 1 ? out : instant);
     if (count == 1) return;
     sums.resize(instant.bytes.size(), count / 2);
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += instant.bytes[i];
@@ -42,14 +51,15 @@ void DrawSlice(const Optics& optics, const Exposure::Slice& slice, render::Camer
 }
 
 render::Picture DrawExposure(const Optics& optics, const Exposure& exposure, render::CameraRenderer& renderer) {
+  const double brightness = Brightness(optics, exposure.setting);
   render::Picture picture;
   if (exposure.slices.size() == 1) {
-    DrawSlice(optics, exposure.slices.front(), renderer, picture);
+    DrawSlice(optics, exposure.slices.front(), brightness, renderer, picture);
     return picture;
   }
   render::Picture band;
   for (const Exposure::Slice& slice : exposure.slices) {
-    DrawSlice(optics, slice, renderer, band);
+    DrawSlice(optics, slice, brightness, renderer, band);
     picture.bytes.insert(picture.bytes.end(), band.bytes.begin(), band.bytes.end());
   }
   picture.width = band.width;

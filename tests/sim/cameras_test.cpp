@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <vector>
 
 #include "base/random.h"
 #include "render/camera_renderer.h"
 #include "sim/physics_world.h"
+#include "sim/sensors/optics.h"
 #include "sim/sensors/suite.h"
 #include "tests/sim/test_world.h"
 #include "vehicles/prescribed.h"
@@ -221,6 +223,60 @@ TEST(Cameras, OpticalFlowAgreesWithGyroAndVelocity) {
   EXPECT_LT(largest, 0.4);    // px, two centroids' errors
   EXPECT_LT(std::sqrt(squares / compared), 0.2);
 }
+
+/// Mean of |a − b|, grey levels.
+double MeanDifference(const stack::Image& a, const stack::Image& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.bytes->size(); ++i) sum += std::abs((*a.bytes)[i] - (*b.bytes)[i]);
+  return sum / static_cast<double>(a.bytes->size());
+}
+
+/// A flight past the things of the courtyard that turns and shakes: 2 m/s, 1.5 rad/s, and 40 Hz of ±0.4°.
+Instant ShakingFlight(base::Time t) {
+  const double s = t.Seconds();
+  const base::Quat q = base::FromYawPitchRoll(1.5 * s, 0.007 * std::sin(2 * M_PI * 40 * s), 0.4 * s);
+  const base::Transform X_WB{q, {-6 + 2 * s, -5, 1.5}};
+  return {X_WB * MountPose(CameraConfig{}), X_WB};
+}
+
+class Shutter : public ::testing::TestWithParam<bool> {};  // with rolling rows, or without
+
+/// The instants and bands that PlanExposure takes give the picture that 64 instants a band, and a band a row or two,
+/// give. The bound is what rounding a mean to grey levels leaves (0.25 of a level in the mean), doubled.
+TEST_P(Shutter, ShowsWhatSixtyFourSubFramesShow) {
+  const worlds::World world = worlds::MakeCourtyard({}, 3);
+  const auto renderer = render::MakeRenderer("raster", world, {});
+  CameraConfig config;
+  config.noise = {0.0, 0.0};
+  config.motion_blur = true;
+  config.exposure = base::Milliseconds(6);
+  if (GetParam()) {
+    config.width = 320;
+    config.height = 240;
+    config.row_delay = base::Microseconds(60);
+  }
+  const Optics optics{config, IntrinsicsOf(config), "camera", 1, {}};
+  const auto plan = [&](base::Time t, double step) {
+    return PlanExposure(config, optics.intrinsics.fx, {config.exposure, 1.0}, t, ShakingFlight, step);
+  };
+  for (const double at : {0.5, 1.7}) {
+    const Exposure used = plan(base::Time{} + base::Seconds(at), 0.75);
+    const Exposure finest = plan(base::Time{} + base::Seconds(at), 1e-3);
+    EXPECT_EQ(finest.slices[0].instants.size(), 64U);
+    EXPECT_LT(used.slices[0].instants.size(), 20U);
+    const stack::Image a = TakeImage(optics, used, *renderer);
+    const stack::Image b = TakeImage(optics, finest, *renderer);
+    const Exposure::Slice sharp{0, config.height, {ShakingFlight(used.captured)}};
+    const stack::Image c = TakeImage(optics, {0, used.captured, used.setting, {sharp}}, *renderer);
+    std::printf("%zu bands of %zu instants: mean difference %.3f levels; without blur and rolling %.3f\n",
+                used.slices.size(), used.slices[0].instants.size(), MeanDifference(a, b), MeanDifference(c, b));
+    EXPECT_LT(MeanDifference(a, b), 0.5);
+    EXPECT_GT(MeanDifference(c, b), 1.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Shutter, ::testing::Bool(),
+                         [](const auto& kind) { return kind.param ? "Rolling" : "Global"; });
 
 }  // namespace
 }  // namespace alula::sim
