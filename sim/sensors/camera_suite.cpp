@@ -98,8 +98,9 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
   std::size_t number = 0;
   if (config.stereo) {
     exposures_.emplace_back(*config.stereo);
+    const auto lens = std::make_shared<const render::Lens>(calibration.cameras[0].intrinsics);
     for (int eye = 0; eye < 2; ++eye) {
-      AddUnit(*config.stereo, calibration.cameras[number++], EyePose(*config.stereo, eye), seed, X_BP);
+      AddUnit(*config.stereo, calibration.cameras[number++], lens, EyePose(*config.stereo, eye), seed, X_BP);
       units_.back().meters = eye == 0;
     }
     units_.back().late = config.stereo->eye_offset;
@@ -107,7 +108,8 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
   }
   for (const NamedCameraConfig& camera : config.cameras) {
     exposures_.emplace_back(camera);
-    AddUnit(camera, calibration.cameras[number++], MountPose(camera), seed, X_BP);
+    const auto lens = std::make_shared<const render::Lens>(calibration.cameras[number].intrinsics);
+    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera), seed, X_BP);
     units_.back().meters = true;
   }
   for (std::size_t i = 0; i < config.gimbals.size(); ++i) {
@@ -117,9 +119,10 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
 }
 
 void CameraSuite::AddUnit(const CameraConfig& config, const stack::CameraCalibration& calibration,
-                          const base::Transform& X_MC, std::uint64_t seed, const std::vector<base::Transform>& X_BP) {
-  const auto optics =
-      std::make_shared<const Optics>(Optics{config, calibration.intrinsics, calibration.name, seed, X_BP});
+                          std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC, std::uint64_t seed,
+                          const std::vector<base::Transform>& X_BP) {
+  const auto optics = std::make_shared<const Optics>(
+      Optics{config, calibration.intrinsics, std::move(lens), calibration.name, seed, X_BP});
   Unit unit{.config = config,
             .calibration = calibration,
             .take = [optics](const Exposure& e, render::CameraRenderer& r) { return TakeImage(*optics, e, r); },

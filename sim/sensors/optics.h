@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "render/camera_renderer.h"
+#include "render/lens.h"
 #include "sim/sensors/exposure.h"
 #include "stack/interface/measurement.h"
 
@@ -14,9 +16,10 @@ namespace alula::sim {
 struct Optics {
   CameraConfig config;
   stack::CameraIntrinsics intrinsics;
-  std::string name;                   // of the sensor; keys the noise
-  std::uint64_t seed = 1;             // of the run
-  std::vector<base::Transform> X_BP;  // the vehicle's parts, in the order of the renderer's movers
+  std::shared_ptr<const render::Lens> lens;  // of these intrinsics
+  std::string name;                          // of the sensor; keys the noise
+  std::uint64_t seed = 1;                    // of the run
+  std::vector<base::Transform> X_BP;         // the vehicle's parts, in the order of the renderer's movers
 };
 
 /// Draws an exposure and spoils it as the sensor does. Pure: the same arguments give the same bytes, on any thread,

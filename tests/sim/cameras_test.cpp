@@ -368,7 +368,8 @@ TEST_P(Shutter, ShowsWhatSixtyFourSubFramesShow) {
     config.height = 240;
     config.row_delay = base::Microseconds(60);
   }
-  const Optics optics{config, IntrinsicsOf(config), "camera", 1, {}};
+  const stack::CameraIntrinsics k = IntrinsicsOf(config);
+  const Optics optics{config, k, std::make_shared<const render::Lens>(k), "camera", 1, {}};
   const auto plan = [&](base::Time t, double step) {
     return PlanExposure(config, optics.intrinsics.fx, {config.exposure, 1.0}, t, ShakingFlight, step);
   };
