@@ -9,6 +9,15 @@
 namespace alula::sim {
 namespace {
 
+/// Keys the noise of one frame.
+std::uint64_t KeyOf(std::uint64_t seed, std::string_view name, std::uint32_t seq) {
+  base::RollingHash key;
+  key.Add(seed);
+  key.Add(name);
+  key.Add(std::uint64_t{seq});
+  return key.value();
+}
+
 /// What exposure and gain make of the light that the nominal exposure is set for.
 double Brightness(const Optics& optics, const ExposureSetting& setting) {
   return setting.length.Seconds() * setting.gain / optics.config.exposure.Seconds();
@@ -88,13 +97,34 @@ void PlaceVehicle(const Optics& optics, const base::Transform& X_WB, render::Cam
   renderer.PlaceMovers(X_WP);
 }
 
+stack::DepthImage TakeDepth(const DepthOptics& optics, const Exposure& exposure, render::CameraRenderer& renderer) {
+  const Exposure::Slice& slice = exposure.slices[exposure.slices.size() / 2];
+  const base::Transform& X_WC = slice.instants[slice.instants.size() / 2].X_WC;
+  const render::View view{.X_WC = X_WC * optics.X_CD, .intrinsics = optics.intrinsics, .draw_movers = false};
+  render::DepthPicture depth;
+  render::Picture ambient;
+  renderer.Depth(view, depth);
+  const bool may_drown = optics.config.light.blinding <= 1.0;
+  if (may_drown) renderer.Grey(view, ambient);
+  stack::DepthImage image;
+  std::vector<std::uint16_t> millimetres =
+      render::MeasureDepth(depth, optics.intrinsics.fx, may_drown ? &ambient : nullptr, nullptr, optics.config.light,
+                           KeyOf(optics.seed, optics.name, exposure.seq));
+  const stack::CameraIntrinsics& seen = optics.registered ? *optics.registered : optics.intrinsics;
+  if (optics.registered) {
+    millimetres = render::RegisterDepth(millimetres, optics.intrinsics, *optics.registered, optics.X_CD);
+  }
+  image.width = seen.width;
+  image.height = seen.height;
+  image.exposure_start = exposure.captured + base::Nanoseconds(-exposure.setting.length.ns / 2);
+  image.exposure = exposure.setting.length;
+  image.millimetres = std::make_shared<const std::vector<std::uint16_t>>(std::move(millimetres));
+  return image;
+}
+
 stack::Image TakeImage(const Optics& optics, const Exposure& exposure, render::CameraRenderer& renderer) {
   render::Picture picture = DrawExposure(optics, exposure, renderer);
-  base::RollingHash key;
-  key.Add(optics.seed);
-  key.Add(std::string_view(optics.name));
-  key.Add(std::uint64_t{exposure.seq});
-  render::ApplyPixelNoise(picture, key.value(), optics.config.noise);
+  render::ApplyPixelNoise(picture, KeyOf(optics.seed, optics.name, exposure.seq), optics.config.noise);
 
   stack::Image image;
   image.format = picture.channels == 1 ? stack::PixelFormat::kGrey8 : stack::PixelFormat::kRgb8;
