@@ -51,7 +51,7 @@ SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> move
 
 /// How far a level's surface may lie from the full level's in the picture's middle, px; 1/cos of the angle off the
 /// axis more elsewhere. Depth is off by as little: kPixelError / f of itself for a surface that is seen square on.
-inline constexpr double kPixelError = 0.4;
+inline constexpr double kPixelError = 0.5;
 
 /// The coarsest level whose error is seen as less than kPixelError from `eye` (in the batch's axes, m), reckoned at the
 /// nearest point of its box. `focal`: the longer focal length, px; infinity gives the full level.
