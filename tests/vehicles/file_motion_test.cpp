@@ -175,8 +175,8 @@ TEST(FileMotion, StandsStillBeforeItSetsOff) {
   const TrajectoryText file(Tum(from_rest, 3, 100));
   const FittedMotion motion({.path = file.path()}, 2.0);
   // Leaving the standstill, the fit rings by less than 1e-3 h²; that dies down by 0.43 from knot to knot (the largest
-  // root of the quintic's Euler–Frobenius polynomial): 2e-4 of it after ten.
-  for (double t = -2; t < -1.0; t += 0.01) {
+  // root of the quintic's Euler–Frobenius polynomial): 4e-5 of it after twelve.
+  for (double t = -2; t < -1.2; t += 0.01) {
     EXPECT_LT((motion.Position(t) - Vec3(0, 1, 2)).norm(), 1e-7);
     EXPECT_LT(motion.Velocity(t).norm(), 1e-6);
     EXPECT_LT(motion.Attitude(t).w_B.norm(), 1e-6);
