@@ -103,6 +103,7 @@ void GlRenderer::DrawSurfaces(const View& view, const GlProgram& program, int ch
   program.Use();
   scene_->Bind(program);
   program.Set("clip_from_world", clip_from_world);
+  program.Set("brightness", view.brightness);
   if (view.draw_movers) DrawMovers(view, program, channels);
   program.SetAffine("world_from_model", base::Transform{});
   const std::vector<Batch>& statics = scene_->geometry().statics;
@@ -133,7 +134,7 @@ void GlRenderer::DrawSky(const View& view, int channels) {
   rays.col(0) = middle;
   rays.col(1) = RayDirection(view, right, 0.5 * (bottom - 0.5)) - middle;
   rays.col(2) = RayDirection(view, 0.5 * (right - 0.5), bottom) - middle;
-  const SkyColours colours = SkyOf(light_, channels);
+  const SkyColours colours = SkyOf(light_, channels, view.brightness);
   sky_->Use();
   sky_->Set("rays", rays);
   sky_->Set("zenith", colours.zenith);

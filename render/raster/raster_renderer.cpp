@@ -151,8 +151,9 @@ void RasterRenderer::Paint(const View& view, int channels, Picture& out) {
   job.shadow_map = shadow_map_.data();
   job.shadow_side = internal::kShadowSide;
   job.channels = channels;
+  job.brightness = view.brightness;
   job.out = out.bytes.data();
-  SetSky(view, internal::SkyOf(light_, channels), job);
+  SetSky(view, internal::SkyOf(light_, channels, view.brightness), job);
   kernels_->shade(job);
 }
 
