@@ -74,7 +74,9 @@ bool Encode(Writing& w, const Source& source) {
                source.depth, source.channels == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_set_compression_level(w.png, 1);
-  png_set_compression_strategy(w.png, 3);  // zlib's Z_RLE: sensor noise leaves nothing for longer matches
+  // Sensor noise leaves zlib nothing to match, only bytes of unlike frequency (Z_HUFFMAN_ONLY: 2.2 ms a 640×480 image
+  // and a smaller file than the default's 4.0 ms). Depth has flat stretches where nothing was measured (Z_RLE).
+  png_set_compression_strategy(w.png, source.depth == 8 ? 2 : 3);
   png_set_filter(w.png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
   png_write_info(w.png, w.info);
   if (source.depth == 16) png_set_swap(w.png);  // PNG is big-endian, this machine is not

@@ -21,12 +21,23 @@ constexpr std::string_view kHeader = "%YAML:1.0\n";
 std::string Matrix(const base::Transform& X) {
   const base::Mat3 R = X.R();
   std::string text = "T_BS:\n  cols: 4\n  rows: 4\n  data: [";
-  for (int r = 0; r < 3; ++r) text += fmt::format("{}, {}, {}, {},\n         ", R(r, 0), R(r, 1), R(r, 2), X.p[r]);
+  for (int r = 0; r < 3; ++r)
+    text += fmt::format("{:#}, {:#}, {:#}, {:#},\n         ", R(r, 0), R(r, 1), R(r, 2), X.p[r]);
   return text + "0.0, 0.0, 0.0, 1.0]\n";
 }
 
+std::string Quoted(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') quoted += '\\';
+    quoted += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return quoted + '"';
+}
+
 std::string General(std::string_view type, std::string_view comment) {
-  return fmt::format("{}# General sensor definitions.\nsensor_type: {}\ncomment: \"{}\"\n\n", kHeader, type, comment);
+  return fmt::format("{}# General sensor definitions.\nsensor_type: {}\ncomment: {}\n\n", kHeader, type,
+                     Quoted(comment));
 }
 
 struct MatrixText {
@@ -151,11 +162,11 @@ std::string CameraYaml(const stack::CameraCalibration& camera) {
   text += "# Sensor extrinsics wrt. the body-frame.\n" + Matrix(camera.X_BC);
   text += fmt::format("\n# Camera specific definitions.\nrate_hz: {}\nresolution: [{}, {}]\ncamera_model: pinhole\n",
                       camera.rate.Hz(), c.width, c.height);
-  text += fmt::format("intrinsics: [{}, {}, {}, {}] #fu, fv, cu, cv\n", c.fx, c.fy, c.cx, c.cy);
+  text += fmt::format("intrinsics: [{:#}, {:#}, {:#}, {:#}] #fu, fv, cu, cv\n", c.fx, c.fy, c.cx, c.cy);
   text += fmt::format("distortion_model: {}\n", fisheye ? "equidistant" : "radial-tangential");
   const auto& k = c.distortion;
-  text += fmt::format("distortion_coefficients: [{}, {}, {}, {}", k[0], k[1], k[2], k[3]);
-  text += !fisheye && k[4] != 0 ? fmt::format(", {}]\n", k[4]) : "]\n";
+  text += fmt::format("distortion_coefficients: [{:#}, {:#}, {:#}, {:#}", k[0], k[1], k[2], k[3]);
+  text += !fisheye && k[4] != 0 ? fmt::format(", {:#}]\n", k[4]) : "]\n";
   if (camera.time_offset.ns != 0) {
     text +=
         fmt::format("timeshift_cam_imu: {} # [ s ] t_imu = t_cam + timeshift_cam_imu\n", camera.time_offset.Seconds());
@@ -179,7 +190,7 @@ std::string GroundTruthYaml(std::string_view comment) {
   return General("visual-inertial", comment) + "# Sensor extrinsics wrt. the body-frame.\n" + Matrix({});
 }
 
-std::string BodyYaml(std::string_view comment) { return fmt::format("{}comment: \"{}\"\n", kHeader, comment); }
+std::string BodyYaml(std::string_view comment) { return fmt::format("{}comment: {}\n", kHeader, Quoted(comment)); }
 
 stack::CameraCalibration ReadCameraYaml(std::string_view text, const std::string& file_name) {
   const CameraText read = Read<CameraText>(text, file_name);
