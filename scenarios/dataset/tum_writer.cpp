@@ -122,19 +122,31 @@ class TumWriter final : public DatasetWriter {
   sim::StreamFile accelerometer_, truth_;
 };
 
-/// The first camera of the kinds, the first kind first.
-const stack::CameraCalibration& FirstOf(const stack::Calibration& truth, std::initializer_list<stack::CameraKind> kinds,
-                                        const char* what) {
-  for (const stack::CameraKind kind : kinds) {
-    for (const stack::CameraCalibration& camera : truth.cameras) {
-      if (camera.kind != kind) continue;
-      if (!camera.gimbal) return camera;
-      throw base::InputError("a TUM dataset cannot hold " + camera.name +
-                             ": it sits on a gimbal, and the ground truth is of a camera fixed to the vehicle");
-    }
+/// How far two cameras are from seeing the same: metres between them plus radians between their axes.
+double Apart(const stack::CameraCalibration& a, const stack::CameraCalibration& b) {
+  return (a.X_BC.p - b.X_BC.p).norm() + base::Log(a.X_BC.q.conjugate() * b.X_BC.q).norm();
+}
+
+/// The camera of a kind that lies nearest to `place` (the first of equals); null where there is none.
+const stack::CameraCalibration* Nearest(const stack::Calibration& truth, stack::CameraKind kind,
+                                        const stack::CameraCalibration* place) {
+  const stack::CameraCalibration* nearest = nullptr;
+  for (const stack::CameraCalibration& camera : truth.cameras) {
+    if (camera.kind != kind) continue;
+    if (nearest == nullptr || (place != nullptr && Apart(camera, *place) < Apart(*nearest, *place))) nearest = &camera;
   }
-  throw base::InputError(std::string("a TUM RGB-D dataset needs ") + what +
-                         " and this vehicle has none; give it an RGB-D camera or write the format euroc");
+  return nearest;
+}
+
+void Check(const stack::CameraCalibration* camera, const char* what) {
+  if (camera == nullptr) {
+    throw base::InputError(std::string("a TUM RGB-D dataset needs ") + what +
+                           " and this vehicle has none; give it an RGB-D camera or write the format euroc");
+  }
+  if (camera->gimbal) {
+    throw base::InputError("a TUM dataset cannot hold " + camera->name +
+                           ": it sits on a gimbal, and the ground truth is of a camera fixed to the vehicle");
+  }
 }
 
 }  // namespace
@@ -142,11 +154,13 @@ const stack::CameraCalibration& FirstOf(const stack::Calibration& truth, std::in
 std::unique_ptr<DatasetWriter> MakeTumWriter(const fs::path& folder, const stack::Calibration& truth,
                                              std::string_view comment) {
   using stack::CameraKind;
-  const stack::CameraCalibration& depth = FirstOf(truth, {CameraKind::kDepth}, "a depth camera");
-  const stack::CameraCalibration& picture =
-      FirstOf(truth, {CameraKind::kColour, CameraKind::kGrey}, "a colour or grey camera");
+  const stack::CameraCalibration* depth = Nearest(truth, CameraKind::kDepth, nullptr);
+  Check(depth, "a depth camera");
+  const stack::CameraCalibration* picture = Nearest(truth, CameraKind::kColour, depth);
+  if (picture == nullptr) picture = Nearest(truth, CameraKind::kGrey, depth);
+  Check(picture, "a colour or grey camera");
   const auto imu = truth.imu ? std::optional(truth.imu->sensor) : std::nullopt;
-  return std::make_unique<TumWriter>(folder, picture, depth, imu, comment);
+  return std::make_unique<TumWriter>(folder, *picture, *depth, imu, comment);
 }
 
 }  // namespace alula::scenarios::dataset
