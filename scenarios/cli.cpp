@@ -22,6 +22,12 @@ base::Override ParseOverride(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+void AddRender(CLI::App& verb, CommandLine& line) {
+  verb.add_option("--render", line.render,
+                  "who draws the pictures: osmesa, egl, raster (our own, on the processor) or auto")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "raster"}));
+}
+
 CLI::App* AddRun(CLI::App& app, CommandLine& line, Raw& raw) {
   CLI::App* run = app.add_subcommand("run", "fly a scenario, print its verdict, write runs/<scenario>/<seed>/");
   run->add_option("scenario", raw.name, "a name of the catalog ('alula list') or a YAML file")->required();
@@ -29,13 +35,33 @@ CLI::App* AddRun(CLI::App& app, CommandLine& line, Raw& raw) {
   run->add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
   run->add_option("--out", raw.out, "folder of the run's files (default: runs/<scenario>/<seed>)");
   run->add_option("--workers", line.workers, "threads inside the run; they change no result")->check(CLI::Range(1, 64));
-  run->add_option("--render", line.render,
-                  "who draws the pictures: osmesa, egl, raster (our own, on the processor) or auto")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl", "raster"}));
+  AddRender(*run, line);
   run->add_flag("--video", line.video, "film the run into video.mp4 of its folder (1280x720, 30 pictures a second)");
   run->add_flag("--quiet", line.quiet, "print the last line only");
   run->add_flag("--json", line.json, "print verdict.json instead of the table");
   return run;
+}
+
+/// `check FILES…` and `check sensors SCENARIO`: the files are required by hand, because CLI11 would want them of both.
+struct Check {
+  CLI::App* files = nullptr;
+  CLI::App* sensors = nullptr;
+};
+Check AddCheck(CLI::App& app, CommandLine& line, Raw& raw) {
+  Check check;
+  check.files = app.add_subcommand("check", "read YAML files and build what they describe, without flying");
+  check.files->add_option("files", line.names, "names of the catalog or YAML files");
+  check.files->add_flag("--quiet", line.quiet, "print nothing when all is well");
+  check.sensors = check.files->add_subcommand(
+      "sensors", "measure a scenario's sensors on a test bench and compare with what is configured");
+  check.sensors->add_option("scenario", raw.name, "a name of the catalog ('alula list') or a YAML file")->required();
+  AddRender(*check.sensors, line);
+  check.sensors->add_flag("--json", line.json, "print JSON instead of the table");
+  for (CLI::App* verb : {check.files, check.sensors}) {
+    verb->add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
+    verb->add_option("--seed", raw.seed, "from which distributions are drawn");
+  }
+  return check;
 }
 
 }  // namespace
@@ -48,11 +74,7 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
   CLI::App* run = AddRun(app, line, raw);
   CLI::App* list = app.add_subcommand("list", "name the scenarios, vehicles and worlds of the catalogs");
   list->add_flag("--json", line.json, "as JSON");
-  CLI::App* check = app.add_subcommand("check", "read YAML files and build what they describe, without flying");
-  check->add_option("files", line.names, "names of the catalog or YAML files")->required();
-  check->add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
-  check->add_option("--seed", raw.seed, "from which distributions are drawn");
-  check->add_flag("--quiet", line.quiet, "print nothing when all is well");
+  const Check check = AddCheck(app, line, raw);
   CLI::App* bench = app.add_subcommand("bench", "measure, beside a reference in the same run");
   bench->add_option("names", line.names, "benchmarks (default: all)");
   bench->add_option("--json", line.json_file, "write one flat object of figures to this file");
@@ -70,9 +92,16 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
     line.names = {raw.name};
   }
   if (list->parsed()) line.verb = CommandLine::Verb::kList;
-  if (check->parsed()) line.verb = CommandLine::Verb::kCheck;
+  if (check.sensors->parsed()) {
+    if (!line.names.empty()) throw base::InputError("check sensors: takes one scenario ('alula check sensors --help')");
+    line.verb = CommandLine::Verb::kCheckSensors;
+    line.names = {raw.name};
+  } else if (check.files->parsed()) {
+    if (line.names.empty()) throw base::InputError("check: files is required ('alula check --help' shows how)");
+    line.verb = CommandLine::Verb::kCheck;
+  }
   if (bench->parsed()) line.verb = CommandLine::Verb::kBench;
-  if (run->count("--seed") + check->count("--seed") > 0) line.seed = raw.seed;
+  if (run->count("--seed") + check.files->count("--seed") + check.sensors->count("--seed") > 0) line.seed = raw.seed;
   if (!raw.out.empty()) line.out = raw.out;
   for (const std::string& text : raw.sets) line.overrides.push_back(ParseOverride(text));
   return std::nullopt;
