@@ -15,7 +15,8 @@ Frame FrameOf(const stack::Measurement& m, const stack::Image& image) {
               .gain = image.gain,
               .width = image.width,
               .height = image.height,
-              .grey = {}};
+              .grey = {},
+              .bytes = image.bytes};
   frame.grey.reserve(static_cast<std::size_t>(image.width) * image.height);
   for (int v = 0; v < image.height; ++v) {
     const std::uint8_t* row = image.Row(v);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -46,7 +48,7 @@ inline base::Transform BodyPose(const base::Transform& X_WC, const base::Transfo
 /// Number of the frame whose time is nearest.
 std::int64_t NearestFrame(base::Rate rate, base::Time t);
 
-/// One picture of one camera: luma, rows without gaps.
+/// One picture of one camera: its luma, in rows without gaps.
 struct Frame {
   stack::SensorId sensor{};
   std::uint32_t seq = 0;
@@ -55,6 +57,7 @@ struct Frame {
   double gain = 1.0;
   int width = 0, height = 0;
   std::vector<std::uint8_t> grey;
+  std::shared_ptr<const std::vector<std::uint8_t>> bytes;  // as delivered: one or three a pixel
 };
 /// The frames among measurements, in order of arrival; RGB becomes luma.
 std::vector<Frame> FramesOf(const std::vector<stack::Measurement>& measurements);

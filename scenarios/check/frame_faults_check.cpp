@@ -12,7 +12,13 @@
 namespace alula::scenarios::check {
 namespace {
 
-constexpr int kFew = 200, kMany = 2000;  // frames: to see that all are there; to estimate a share
+constexpr int kFew = 200;  // frames, to see that all are there
+
+/// So many that a share is found to a tenth of itself (one standard deviation), but 8000 at most.
+int FramesFor(double share) {
+  if (share <= 0.0) return kFew;
+  return static_cast<int>(std::clamp(100.0 * (1.0 - share) / share, 1000.0, 8000.0));
+}
 
 /// The group with small pictures, no noise (so that only a frozen picture repeats itself) and these faults.
 Rig SmallPictures(const Rig& rig, const CameraGroup& group, const sim::FrameFaultsConfig& faults) {
@@ -109,13 +115,13 @@ void AddFreezes(const CameraGeometry& camera, const sim::FrameFaultsConfig& clai
 
 void CheckFrameFaults(const Rig& rig, const CameraGroup& group, const sim::CameraConfig& claimed, Report& report) {
   const sim::FrameFaultsConfig& built = ConfigOf(rig.sensors, group).faults;
-  const auto count = [](bool any) { return any ? kMany : kFew; };
   // One fault at a time: a frame that is lost cannot be seen to be frozen. Fates are drawn alike either way.
   sim::FrameFaultsConfig on_the_way = built, stuck = built;
   on_the_way.freeze = 0.0;
   stuck.drop = stuck.late = 0.0;
   const Rig first = SmallPictures(rig, group, on_the_way), second = SmallPictures(rig, group, stuck);
-  const int ways = count(built.drop > 0.0 || built.late > 0.0), freezes = count(built.freeze > 0.0);
+  const int ways = std::max(FramesFor(claimed.faults.drop), FramesFor(claimed.faults.late));
+  const int freezes = FramesFor(claimed.faults.freeze);
   const std::vector<Frame> travelled = RecordFrames(first, group, ways), held = RecordFrames(second, group, freezes);
   for (const CameraGeometry& camera : GeometryOf(first, group)) {
     const std::vector<Frame> own = Of(travelled, camera.sensor, ways);

@@ -191,30 +191,33 @@ void CheckInertiaAtRest(const Rig& rig, const sim::ImuConfig& claimed, Report& r
 
 void CheckTurnOnBias(const Rig& rig, const sim::ImuConfig& claimed, Report& report) {
   constexpr int kSeeds = 300;
-  constexpr double kSamples = 50.0;  // averaged after switching on
-  std::array<std::vector<double>, 2> biases;
+  constexpr double kSamples = 50.0;                         // averaged after switching on
+  std::array<std::array<std::vector<double>, 3>, 2> found;  // gyro, accelerometer; by axis
   for (int i = 0; i < kSeeds; ++i) {
     Rig one = rig;
     one.seed = rig.seed + static_cast<std::uint64_t>(i);
     const Axes axes = RecordRest(one, base::Seconds(kSamples * claimed.rate.Period()));
     for (int axis = 0; axis < 3; ++axis) {
-      biases[0].push_back(SpreadOf(axes.gyro[axis]).mean);
-      biases[1].push_back(SpreadOf(axes.accelerometer[axis]).mean - (axis == 2 ? base::kGravity : 0.0));
+      found[0][axis].push_back(SpreadOf(axes.gyro[axis]).mean);
+      found[1][axis].push_back(SpreadOf(axes.accelerometer[axis]).mean);
     }
   }
-  const auto add = [&report](const char* what, double configured, const std::vector<double>& found, double white,
-                             const char* unit) {
-    const Spread spread = SpreadOf(found);
-    const double variance = spread.sigma * spread.sigma - white * white / kSamples;  // less what the mean's noise adds
+  const auto add = [&report](const char* what, double configured, const std::array<std::vector<double>, 3>& axes,
+                             double white, const char* unit) {
+    double variance = -white * white / kSamples;    // what the mean's noise adds
+    for (const std::vector<double>& axis : axes) {  // about each axis's mean, which holds gravity too
+      const double sigma = SpreadOf(axis).sigma;
+      variance += sigma * sigma / 3.0;
+    }
     report.Add(Compare(kName, what, configured, std::sqrt(std::max(0.0, variance)),
                        kSigmas * SigmaError(std::hypot(configured, white / std::sqrt(kSamples)), 3.0 * kSeeds) +
                            (configured > 0.0 ? 0.0 : white / std::sqrt(kSamples)),
                        unit));
   };
   const double root_rate = std::sqrt(claimed.rate.Hz());
-  add("gyro turn-on bias, 1 sigma", claimed.noise.gyro_turn_on_bias, biases[0], claimed.noise.gyro_noise * root_rate,
+  add("gyro turn-on bias, 1 sigma", claimed.noise.gyro_turn_on_bias, found[0], claimed.noise.gyro_noise * root_rate,
       "rad/s");
-  add("accelerometer turn-on bias, 1 sigma", claimed.noise.accelerometer_turn_on_bias, biases[1],
+  add("accelerometer turn-on bias, 1 sigma", claimed.noise.accelerometer_turn_on_bias, found[1],
       claimed.noise.accelerometer_noise * root_rate, "m/s^2");
 }
 

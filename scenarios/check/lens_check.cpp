@@ -166,15 +166,21 @@ MeanPose Average(const std::vector<Transform>& poses) {
   return mean;
 }
 
-void AddMount(const CameraGeometry& claimed, const MeanPose& mount, Report& report) {
+/// An error of the centre or the focal length moves all views alike: turn and distance of the board come with it.
+void AddMount(const CameraGeometry& claimed, const MeanPose& mount, const CalibratedCamera& camera, Report& report) {
+  const stack::CameraIntrinsics& k = claimed.intrinsics;
+  const double turn = std::hypot(camera.optics_sigma[2] / k.fx, camera.optics_sigma[3] / k.fy);
+  double distance = 0.0;
+  for (const Transform& X_CT : camera.X_CT) distance += X_CT.p.norm() / static_cast<double>(camera.X_CT.size());
+  const double place_error = std::hypot(mount.place_error, distance * camera.optics_sigma[0] / k.fx);
+  const double angle_error = std::hypot(mount.angle_error, turn);
   constexpr const char* kPlaces[] = {"position x in the body", "position y in the body", "position z in the body"};
   for (int i = 0; i < 3; ++i) {
-    report.Add(
-        Compare(claimed.name, kPlaces[i], claimed.X_BC.p[i], mount.X.p[i], 5e-4 + kSigmas * mount.place_error, "m"));
+    report.Add(Compare(claimed.name, kPlaces[i], claimed.X_BC.p[i], mount.X.p[i], 5e-4 + kSigmas * place_error, "m"));
   }
   const double angle = base::Log(claimed.X_BC.q.conjugate() * mount.X.q).norm() / kDegree;
   report.Add(Compare(claimed.name, "mount's angle to the configured one", 0.0, angle,
-                     0.01 + kSigmas * mount.angle_error / kDegree, "deg"));
+                     0.01 + kSigmas * angle_error / kDegree, "deg"));
 }
 
 void AddPair(const std::vector<CameraGeometry>& claimed, const std::vector<CameraGeometry>& measured,
@@ -222,7 +228,7 @@ std::vector<CameraGeometry> CheckLens(const Rig& isolated, const CameraGroup& gr
       mounts.push_back(bodies[i].Inverse() * ChartPose() * camera.X_CT[i].Inverse());
     }
     const MeanPose mount = Average(mounts);
-    AddMount(claimed[eye], mount, report);
+    AddMount(claimed[eye], mount, camera, report);
     measured[eye].intrinsics = camera.intrinsics;
     measured[eye].X_BC = mount.X;
   }

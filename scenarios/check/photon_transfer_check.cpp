@@ -19,14 +19,14 @@ struct Level {
 std::array<Level, 256> Pool(const std::vector<Frame>& frames) {
   std::array<Level, 256> levels;
   const double n = static_cast<double>(frames.size());
-  for (std::size_t i = 0; i < frames.front().grey.size(); ++i) {
+  for (std::size_t i = 0; i < frames.front().bytes->size(); ++i) {
     double sum = 0.0, squares = 0.0;
     bool clipped = false;
     for (const Frame& frame : frames) {
-      const double value = frame.grey[i];
+      const double value = (*frame.bytes)[i];
       sum += value;
       squares += value * value;
-      clipped = clipped || frame.grey[i] == 0 || frame.grey[i] == 255;
+      clipped = clipped || value == 0.0 || value == 255.0;
     }
     const double mean = sum / n;
     Level& level = levels[static_cast<std::size_t>(std::lround(mean))];

@@ -14,9 +14,9 @@ struct PhotonTransfer {
   double levels = 0.0;  // bins of one grey level that the line went through
 };
 
-/// Photon-transfer curve (Janesick 2007; EMVA 1288, section 6.6) from frames of one unmoving scene: each pixel's mean
-/// and variance over the frames, pooled by mean. Levels at which any pixel touches 0 or 255 are left out, and such
-/// whose spread is below half a level, where rounding is no noise.
+/// Photon-transfer curve (Janesick 2007; EMVA 1288, section 6.6) from frames of one unmoving scene: mean and variance
+/// of each pixel (of each colour) over the frames, pooled by mean. Levels at which any pixel touches 0 or 255 are left
+/// out, and such whose spread is below half a level, where rounding is no noise.
 PhotonTransfer MeasurePhotonTransfer(const std::vector<Frame>& frames);
 
 /// Photon transfer of each camera of a group before a grey wall, within 5 %.

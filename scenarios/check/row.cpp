@@ -38,10 +38,10 @@ bool Report::passed() const {
 }
 
 std::string ToTable(const Report& report) {
-  std::string text = fmt::format("  {:<6}{:<26}{:<38}{:>13}{:>13}{:>13}  {}\n", "", "sensor", "quantity", "configured",
+  std::string text = fmt::format("  {:<6}{:<31}{:<45}{:>13}{:>13}{:>13}  {}\n", "", "sensor", "quantity", "configured",
                                  "measured", "tolerance", "unit");
   for (const Row& row : report.rows) {
-    text += fmt::format("  {:<6}{:<26}{:<38}{:>13}{:>13}{:>13}  {}\n", row.passed ? "ok" : "FAIL", row.sensor,
+    text += fmt::format("  {:<6}{:<31}{:<45}{:>13}{:>13}{:>13}  {}\n", row.passed ? "ok" : "FAIL", row.sensor,
                         row.quantity, Shown(row.configured), Shown(row.measured), Shown(row.tolerance), row.unit);
   }
   for (const std::string& note : report.notes) text += "  note: " + note + "\n";

@@ -142,8 +142,10 @@ void AddRows(const CameraGeometry& camera, const sim::CameraConfig& claimed, con
              double speed, base::Duration offset, int every, Report& report) {
   // An edge is found to a few hundredths of a pixel; instants 0.75 px apart take (1/N²)/2 of N instants' length.
   const double blur = claimed.motion_blur ? claimed.exposure.Seconds() : 0.0;
+  const double smear = speed * blur;  // px
+  const double blur_tolerance = blur > 0.0 ? blur * (0.02 + 0.3 / (smear * smear)) : 0.6 / speed;
   report.Add(Compare(camera.name, "exposure, from the blur of an edge", blur, MeanOf(readings, &EdgeReading::exposure),
-                     std::max(0.03 * blur, 0.6 / speed), "s"));
+                     blur_tolerance, "s"));
   const double rows = 0.6 * claimed.height;
   report.Add(Compare(camera.name, "row delay, from the slant of an edge", claimed.row_delay.Seconds(),
                      MeanOf(readings, &EdgeReading::row_delay),
