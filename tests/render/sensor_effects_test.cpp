@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "render/internal/noise_kernel.h"
+#include "render/internal/sensor_kernel.h"
 
 namespace alula::render {
 namespace {
