@@ -39,13 +39,13 @@ std::vector<double> Vignette(double lost_in_corner, const stack::CameraIntrinsic
 }
 
 /// What each value, in steps of 1/kToneSteps, is shown as.
-std::vector<std::int32_t> ToneTable(double gamma, int bits) {
+std::vector<std::uint8_t> ToneTable(double gamma, int bits) {
   const double codes = std::exp2(bits) - 1.0;
-  std::vector<std::int32_t> table;
+  std::vector<std::uint8_t> table;
   for (int i = 0; i <= 255 * internal::kToneSteps; ++i) {
     const double value = static_cast<double>(i) / internal::kToneSteps / 255.0;
     const double code = std::floor(codes * std::pow(value, 1.0 / gamma) + 0.5);
-    table.push_back(static_cast<std::int32_t>(255.0 * code / codes + 0.5));
+    table.push_back(static_cast<std::uint8_t>(255.0 * code / codes + 0.5));
   }
   return table;
 }

@@ -26,7 +26,7 @@ struct GlareLight {
 struct FrameSettings {
   double gain = 1.0;        // of the amplifier: of noise and dark offset, the picture being drawn with it
   double brightness = 1.0;  // exposure and gain over the nominal ones, as in View: of glare
-  std::span<const GlareLight> lights;
+  std::span<const GlareLight> lights{};
 };
 
 /// One camera's SensorEffects, ready to be applied: what belongs to the pixels for good is drawn once from
@@ -57,7 +57,7 @@ class ImageSensor {
   std::vector<std::uint16_t> transmission_;       // by byte of the picture, 1/32768; empty: 1
   std::vector<std::int16_t> response_;            // likewise, 1/32768; empty: 0
   std::vector<std::int16_t> dark_;                // likewise, 1/256 level
-  std::vector<std::int32_t> tone_;                // what a value in 1/16 level is shown as; empty: itself
+  std::vector<std::uint8_t> tone_;                // what a value in 1/16 level is shown as; empty: itself
   std::unique_ptr<internal::SmoothLight> added_;  // dirt's haze and glare; null: none
 };
 

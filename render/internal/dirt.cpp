@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/random.h"
+#include "render/internal/smooth_light.h"
 
 namespace alula::render::internal {
 namespace {
@@ -37,6 +38,30 @@ void AddDisc(std::vector<float>& field, int width, int height, const std::array<
           static_cast<float>(weight * rest * rest);
     }
   }
+}
+
+/// The field as it is interpolated between SmoothLight's nodes, so that what is taken from a pixel is what comes back.
+std::vector<float> Coarsened(const std::vector<float>& field, int width, int height) {
+  constexpr int kCell = SmoothLight::kCell;
+  const int last_u = (width - 1) / kCell * kCell, last_v = (height - 1) / kCell * kCell;  // level beyond these
+  const auto at = [&](int u, int v) {
+    return field[static_cast<std::size_t>(std::min(v, last_v)) * static_cast<std::size_t>(width) +
+                 static_cast<std::size_t>(std::min(u, last_u))];
+  };
+  std::vector<float> coarse;
+  coarse.reserve(field.size());
+  for (int v = 0; v < height; ++v) {
+    const int top = v - v % kCell;
+    const float down = static_cast<float>(v % kCell) / kCell;
+    for (int u = 0; u < width; ++u) {
+      const int left = u - u % kCell;
+      const float right = static_cast<float>(u % kCell) / kCell;
+      const float upper = at(left, top) + right * (at(left + kCell, top) - at(left, top));
+      const float lower = at(left, top + kCell) + right * (at(left + kCell, top + kCell) - at(left, top + kCell));
+      coarse.push_back(upper + down * (lower - upper));
+    }
+  }
+  return coarse;
 }
 
 /// Dirt on the front lens is far out of focus: discs from a fifteenth to a third of the picture's width.
@@ -85,10 +110,9 @@ DirtMap MakeDirt(const Dirt& dirt, int width, int height, std::uint64_t key) {
     const float limit = UpperQuantile(field, dirt.smudged);
     constexpr float kRim = 1.0F;  // of the field: a fair smudge reaches two or three
     const auto loss = static_cast<float>(dirt.smudge_loss);
-    for (std::size_t i = 0; i < count; ++i) {
-      map.scattered[i] = loss * SmoothStep((field[i] - limit) / kRim);
-      map.through[i] = 1.0F - map.scattered[i];
-    }
+    for (std::size_t i = 0; i < count; ++i) map.scattered[i] = loss * SmoothStep((field[i] - limit) / kRim);
+    map.scattered = Coarsened(map.scattered, width, height);
+    for (std::size_t i = 0; i < count; ++i) map.through[i] = 1.0F - map.scattered[i];
   }
   if (dirt.obscured > 0.0) {
     base::RandomStream random(key, "mud");

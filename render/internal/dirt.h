@@ -14,7 +14,7 @@ struct DirtMap {
 };
 
 /// Smudges are where a sum of soft discs at random places is highest; mud is a disc with a wavy rim somewhere. Both
-/// cover exactly the shares stated, to a pixel or so: the limits are quantiles.
+/// cover the shares stated, because their limits are quantiles.
 DirtMap MakeDirt(const Dirt& dirt, int width, int height, std::uint64_t key);
 
 }  // namespace alula::render::internal

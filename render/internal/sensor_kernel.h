@@ -18,7 +18,7 @@ struct SensorJob {
   const std::int16_t* response;       // 1/32768; either both or none of response and dark
   const std::int16_t* dark;           // dark_step each
   float dark_step;
-  const std::int32_t* tone;  // kToneSteps a level, from 0 to 255
+  const std::uint8_t* tone;  // kToneSteps a level, from 0 to 255
 };
 inline constexpr int kToneSteps = 16;
 
