@@ -26,6 +26,8 @@ struct View {
   base::Transform X_WC;
   stack::CameraIntrinsics intrinsics;
   bool draw_movers = true;  // false for a camera that sits inside the vehicle it belongs to
+  float brightness = 1.0F;  // exposure times gain over the nominal one: a factor on the signal of grey and colour
+                            // pictures before it is rounded to eight bits and cut off at 255
 };
 
 /// A camera's picture before its sensor: grey values or RGB in [0, 255], rows from the top.

@@ -27,6 +27,9 @@ std::string FirstIn(const stack::Command& c) {
     if (!Finite(p->p_OB) || !Finite(p->v_OB) || !Finite(p->a_OB)) return "position set-point";
     if (!std::isfinite(p->yaw) || !std::isfinite(p->yaw_rate)) return "position set-point's yaw";
   }
+  if (const auto* g = std::get_if<stack::GimbalSetpoint>(&c.what)) {
+    if (!Finite(base::Vec3(g->roll, g->pitch, g->yaw))) return "gimbal set-point";
+  }
   if (const auto* v = std::get_if<stack::VelocitySetpoint>(&c.what)) {
     if (!Finite(v->v_OB)) return "velocity set-point";
     if (!std::isfinite(v->yaw) || !std::isfinite(v->yaw_rate)) return "velocity set-point's yaw";

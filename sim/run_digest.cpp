@@ -14,6 +14,12 @@ void AddTo(base::RollingHash& h, const stack::Image& s) {
   h.Add(std::int64_t{s.height});
   h.AddBytes(*s.bytes);
 }
+void AddTo(base::RollingHash& h, const stack::DepthImage& s) {
+  h.Add(std::int64_t{s.width});
+  h.Add(std::int64_t{s.height});
+  for (const std::uint16_t depth : *s.millimetres) h.Add(std::uint64_t{depth});
+}
+void AddTo(base::RollingHash& h, const stack::GimbalAngles& s) { h.Add(base::Vec3(s.roll, s.pitch, s.yaw)); }
 void AddTo(base::RollingHash& h, const stack::BaroSample& s) { h.Add(s.pressure); }
 void AddTo(base::RollingHash& h, const stack::PositionFix& s) { h.Add(s.X_WB); }
 void AddTo(base::RollingHash& h, const stack::BatterySample& s) {
@@ -26,6 +32,10 @@ void AddTo(base::RollingHash& h, const stack::VehicleStatus& s) {
   h.Add(s.thrust);
 }
 
+void AddTo(base::RollingHash& h, const stack::GimbalSetpoint& s) {
+  h.Add(std::int64_t{s.gimbal});
+  h.Add(base::Vec3(s.roll, s.pitch, s.yaw));
+}
 void AddTo(base::RollingHash&, const stack::Arm&) {}
 void AddTo(base::RollingHash&, const stack::Disarm&) {}
 void AddTo(base::RollingHash&, const stack::Hold&) {}

@@ -61,6 +61,7 @@ namespace alula::render::internal {
   F(ShaderSource, SHADERSOURCE)                       \
   F(TexImage2D, TEXIMAGE2D)                           \
   F(TexParameteri, TEXPARAMETERI)                     \
+  F(Uniform1f, UNIFORM1F)                             \
   F(Uniform1i, UNIFORM1I)                             \
   F(Uniform3fv, UNIFORM3FV)                           \
   F(UniformMatrix3fv, UNIFORMMATRIX3FV)               \

@@ -43,6 +43,8 @@ GlProgram::GlProgram(const GlFunctions& gl, const char* vertex_source, const cha
 
 void GlProgram::Set(const char* name, int value) const { gl_->Uniform1i(gl_->GetUniformLocation(id_, name), value); }
 
+void GlProgram::Set(const char* name, float value) const { gl_->Uniform1f(gl_->GetUniformLocation(id_, name), value); }
+
 void GlProgram::Set(const char* name, const Eigen::Vector3f& value) const {
   gl_->Uniform3fv(gl_->GetUniformLocation(id_, name), 1, value.data());
 }

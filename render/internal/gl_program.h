@@ -16,6 +16,7 @@ class GlProgram {
   void Use() const { gl_->UseProgram(id_); }
   // Set uniforms of the program in use; names that the compiler dropped are ignored, as GL does.
   void Set(const char* name, int value) const;
+  void Set(const char* name, float value) const;
   void Set(const char* name, const Eigen::Vector3f& value) const;
   void Set(const char* name, const Eigen::Matrix3d& value) const;
   void Set(const char* name, const Eigen::Matrix4d& value) const;

@@ -113,6 +113,7 @@ void GlRenderer::DrawSurfaces(const View& view, const GlProgram& program, int ch
   program.Use();
   scene_->Bind(program);
   program.Set("clip_from_world", clip_from_world);
+  program.Set("brightness", view.brightness);
   if (view.draw_movers) DrawMovers(view, program, channels);
   program.SetAffine("world_from_model", base::Transform{});
   const std::vector<Batch>& statics = geometry_->statics;
@@ -152,7 +153,7 @@ void GlRenderer::DrawSky(const View& view, int channels) {
   rays.col(0) = middle;
   rays.col(1) = RayDirection(view, right, 0.5 * (bottom - 0.5)) - middle;
   rays.col(2) = RayDirection(view, 0.5 * (right - 0.5), bottom) - middle;
-  const SkyColours colours = SkyOf(geometry_->light, channels);
+  const SkyColours colours = SkyOf(geometry_->light, channels, view.brightness);
   sky_->Use();
   sky_->Set("rays", rays);
   sky_->Set("zenith", colours.zenith);

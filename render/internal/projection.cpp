@@ -8,12 +8,16 @@ namespace alula::render::internal {
 
 void CheckView(const View& view) {
   constexpr int kLargest = 8192;
+  constexpr float kBrightest = 1e6F;
   const stack::CameraIntrinsics& k = view.intrinsics;
   if (k.width < 1 || k.height < 1 || k.width > kLargest || k.height > kLargest) {
     throw base::InputError("camera of " + std::to_string(k.width) + " x " + std::to_string(k.height) +
                            " pixels; each side must be in [1, 8192]");
   }
   if (!(k.fx > 0.0) || !(k.fy > 0.0)) throw base::InputError("camera: focal lengths must be positive");
+  if (!(view.brightness >= 0.0F && view.brightness <= kBrightest)) {
+    throw base::InputError("camera: brightness is " + std::to_string(view.brightness) + "; it must be in [0, 1e6]");
+  }
   for (const double coefficient : k.distortion) {
     if (coefficient != 0.0)
       throw base::InputError("camera: lens distortion is not rendered; all coefficients must be 0");

@@ -10,7 +10,8 @@ namespace alula::render::internal {
 inline constexpr double kNear = 0.05;  // m; nearer things are cut away
 inline constexpr double kFar = 200.0;  // m
 
-/// Throws base::InputError unless the view has a size in [1, 8192]², positive focal lengths and no distortion.
+/// Throws base::InputError unless the view has a size in [1, 8192]², positive focal lengths, no distortion and a
+/// brightness that is not negative.
 void CheckView(const View& view);
 
 /// GL clip coordinates of a point of the world (homogeneous). The image spans [−½, width − ½] × [−½, height − ½];

@@ -15,6 +15,7 @@ uniform mat4x3 world_from_model;
 uniform mat4x3 shadow_from_world;
 uniform vec3 to_sun;
 uniform vec3 light;  // sun, ambient, offset along the normal for the shadow look-up (m)
+uniform float brightness;
 out vec2 uv;
 out vec2 shade;  // in the shadow, in the sun
 out vec3 shadow_at;
@@ -28,7 +29,7 @@ void main() {
   float sun = light.x * max(facing, 0.0);
   // Textures hold displayed values, light is linear: the product in linear space, displayed again with gamma 2, is
   // texture times root of light. The exposure sets sunlit ground to its texture's own value, shadows to about half.
-  shade = sqrt(max(vec2(0.6 * sky, 0.6 * sky + 1.4 * sun), 0.0));
+  shade = sqrt(max(vec2(0.6 * sky, 0.6 * sky + 1.4 * sun), 0.0)) * brightness;
   shadow_at = shadow_from_world * vec4(p + n * (light.z * sqrt(max(1.0 - facing * facing, 0.0))), 1.0);
   gl_Position = clip_from_world * vec4(p, 1.0);
 }

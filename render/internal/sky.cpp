@@ -9,9 +9,10 @@ Eigen::Vector3f Luma(const Eigen::Vector3f& rgb) {
 
 }  // namespace
 
-SkyColours SkyOf(const worlds::Light& light, int channels) {
-  const SkyColours colours{light.sky, 0.45F * light.sky + Eigen::Vector3f::Constant(0.52F),
-                           0.35F * light.sky + Eigen::Vector3f::Constant(0.1F)};
+SkyColours SkyOf(const worlds::Light& light, int channels, float brightness) {
+  SkyColours colours{light.sky, 0.45F * light.sky + Eigen::Vector3f::Constant(0.52F),
+                     0.35F * light.sky + Eigen::Vector3f::Constant(0.1F)};
+  for (Eigen::Vector3f* colour : {&colours.zenith, &colours.horizon, &colours.ground}) *colour *= brightness;
   return channels == 1 ? SkyColours{Luma(colours.zenith), Luma(colours.horizon), Luma(colours.ground)} : colours;
 }
 

@@ -10,6 +10,7 @@ struct SkyColours {
   Eigen::Vector3f horizon;
   Eigen::Vector3f ground;  // below the horizon
 };
-SkyColours SkyOf(const worlds::Light& light, int channels);
+/// `brightness`: a factor on all of them.
+SkyColours SkyOf(const worlds::Light& light, int channels, float brightness);
 
 }  // namespace alula::render::internal

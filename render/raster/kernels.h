@@ -117,6 +117,7 @@ struct ShadeJob {
   float sky_up[3];                  // z of the ray in world axes: at pixel (0, 0), by x, by y
   float sky_ray[4];                 // x and y of the ray with unit depth: at pixel (0, 0) and by pixel: x0, y0, dx, dy
   float sky_colours[9];             // zenith, horizon, ground; levels, by channel
+  float brightness;                 // factor on the light
   int channels;                     // 1 or 3
   std::uint8_t* out;                // rows of width · channels
 };

@@ -188,7 +188,8 @@ ShadeJob RasterRenderer::JobFor(const View& view, int channels, const Target& ta
   job.shadow_side = internal::kShadowSide;
   job.shadow_pitch = scene_->shadow_map().pitch;
   job.channels = channels;
-  SetSky(view, internal::SkyOf(scene_->geometry().light, channels), job);
+  job.brightness = view.brightness;
+  SetSky(view, internal::SkyOf(scene_->geometry().light, channels, view.brightness), job);
   return job;
 }
 

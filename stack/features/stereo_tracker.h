@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/frames.h"
-#include "stack/features/camera_model.h"
+#include "stack/features/stereo_rig.h"
 #include "stack/features/stereo_tracker_config.h"
 #include "stack/interface/measurement.h"
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,8 +12,13 @@
 
 namespace alula::stack {
 
-/// Pinhole with radial-tangential distortion (k1 k2 p1 p2 k3, as OpenCV orders them). Focal lengths and centre in
-/// pixels.
+/// How a lens bends rays.
+enum class DistortionModel : std::uint8_t {
+  kRadialTangential,  // k1 k2 p1 p2 k3 of the normalised point (Brown 1971, as OpenCV orders them)
+  kEquidistant,       // k1 k2 k3 k4 of the angle to the axis (Kannala and Brandt 2006; OpenCV's fisheye)
+};
+
+/// A camera's geometry: camera_model.h has the equations. Focal lengths and centre in pixels.
 struct CameraIntrinsics {
   int width = 0;
   int height = 0;
@@ -20,17 +26,31 @@ struct CameraIntrinsics {
   double fy = 0.0;
   double cx = 0.0;
   double cy = 0.0;
-  std::array<double, 5> distortion{};  // k1 k2 p1 p2 k3
+  std::array<double, 5> distortion{};  // in the model's order; what it does not use is 0
+  DistortionModel model = DistortionModel::kRadialTangential;
 };
+
+/// What a camera delivers.
+enum class CameraKind : std::uint8_t { kGrey, kColour, kInfrared, kDepth };
 
 struct CameraCalibration {
   SensorId sensor{};
   std::string name;  // "vehicle0/camera.left"
   CameraIntrinsics intrinsics;
-  base::Transform X_BC;
+  base::Transform X_BC;  // on a gimbal: with all its angles zero
   base::Rate rate;
   /// What must be added to a `captured` stamp to get IMU time.
   base::Duration time_offset;
+  CameraKind kind = CameraKind::kGrey;
+  base::Duration row_delay{};   // from one row's exposure to the next one's; 0: global shutter
+  std::optional<int> gimbal{};  // index into Calibration::gimbals
+};
+
+/// A mount that turns cameras about one point: first yaw about the body's z, then pitch (positive: down), then roll.
+struct GimbalCalibration {
+  SensorId sensor{};                     // GimbalAngles
+  std::string name;                      // "vehicle0/gimbal.0"
+  base::Vec3 p_BG = base::Vec3::Zero();  // the point that does not move
 };
 
 /// Noise as in Kalibr: continuous-time densities.
@@ -70,6 +90,7 @@ struct Calibration {
   std::vector<CameraCalibration> cameras;
   /// Indices into `cameras` of the left and right eye, where the vehicle has a stereo pair.
   std::optional<std::array<int, 2>> stereo;
+  std::vector<GimbalCalibration> gimbals;
   std::optional<ImuCalibration> imu;
   std::optional<BarometerCalibration> barometer;
   std::optional<PositionReferenceCalibration> position_reference;

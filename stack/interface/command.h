@@ -26,6 +26,15 @@ struct VelocitySetpoint {
   double yaw_rate = 0.0;
 };
 
+/// Turn a gimbal: its number in the calibration and the angles wanted (rad), against the body, or against the horizon
+/// and the heading where it is stabilised. The mount obeys, not the autopilot; it keeps the last one.
+struct GimbalSetpoint {
+  int gimbal = 0;
+  double roll = 0.0;
+  double pitch = 0.0;
+  double yaw = 0.0;
+};
+
 /// Stay where you are.
 struct Hold {};
 /// Come down here, and disarm on the ground.
@@ -33,7 +42,7 @@ struct Land {};
 
 /// A command with a time of expiry: after it the autopilot behaves as if the stack were silent.
 struct Command {
-  std::variant<Arm, Disarm, PositionSetpoint, VelocitySetpoint, Hold, Land> what;
+  std::variant<Arm, Disarm, PositionSetpoint, VelocitySetpoint, Hold, Land, GimbalSetpoint> what;
   base::Time issued;
   base::Time expires;
 };

@@ -38,6 +38,23 @@ struct Image {
   const std::uint8_t* Row(int v) const { return bytes->data() + static_cast<std::size_t>(v) * stride; }
 };
 
+/// What a depth camera delivers: planar depth (along the optical axis) in millimetres, rows from the top without gaps;
+/// 0 where it could not measure.
+struct DepthImage {
+  int width = 0;
+  int height = 0;
+  base::Time exposure_start;
+  base::Duration exposure;
+  std::shared_ptr<const std::vector<std::uint16_t>> millimetres;
+};
+
+/// Where a gimbal's encoders say that it stands, rad (calibration.h: GimbalCalibration).
+struct GimbalAngles {
+  double roll = 0.0;
+  double pitch = 0.0;
+  double yaw = 0.0;
+};
+
 /// Static pressure, Pa.
 struct BaroSample {
   double pressure = 0.0;
@@ -72,7 +89,7 @@ struct Measurement {
   std::uint32_t seq = 0;
   base::Time captured;
   base::Time available;
-  std::variant<ImuSample, Image, BaroSample, PositionFix, BatterySample, VehicleStatus> data;
+  std::variant<ImuSample, Image, BaroSample, PositionFix, BatterySample, VehicleStatus, DepthImage, GimbalAngles> data;
 };
 
 /// The order in which measurements are handed over.

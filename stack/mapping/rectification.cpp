@@ -4,22 +4,11 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
+#include "stack/interface/camera_model.h"
 
 namespace alula::stack::mapping::internal {
 
 namespace {
-
-/// Pixel of a physical camera that sees the direction `ray_C` (radial-tangential distortion).
-base::Vec2 Project(const CameraIntrinsics& k, const base::Vec3& ray_C) {
-  const double x = ray_C.x() / ray_C.z();
-  const double y = ray_C.y() / ray_C.z();
-  const double r2 = x * x + y * y;
-  const auto& d = k.distortion;
-  const double radial = 1 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]));
-  const double xd = x * radial + 2 * d[2] * x * y + d[3] * (r2 + 2 * x * x);
-  const double yd = y * radial + d[2] * (r2 + 2 * y * y) + 2 * d[3] * x * y;
-  return {k.fx * xd + k.cx, k.fy * yd + k.cy};
-}
 
 void MakeMaps(const Rectification& r, const CameraCalibration& camera, cv::Mat& map1, cv::Mat& map2) {
   const base::Mat3 R_KC = (camera.X_BC.q.conjugate() * r.X_BC.q).toRotationMatrix();  // rectified → physical

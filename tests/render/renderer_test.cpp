@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <thread>
 
 #include "base/error.h"
@@ -218,6 +220,56 @@ TEST_P(AnyRenderer, ShadowsFallAlongTheSun) {
     EXPECT_EQ(value(middle.x() + x, middle.y()), value(middle.x(), middle.y()));
     EXPECT_EQ(value(middle.x() + x, middle.y() + 0.36), lit);
     EXPECT_EQ(value(middle.x() + x, middle.y() - 0.36), lit);
+  }
+}
+
+// Three levels of a dark scene become many again where the gain lies before the rounding, and bright ones stop at 255.
+TEST_P(AnyRenderer, BrightnessScalesTheSignalBeforeItIsRounded) {
+  worlds::World world = Clutter(7);
+  world.light.sun *= 0.0025F;
+  world.light.ambient *= 0.0025F;
+  world.light.sky *= 0.05F;
+  const auto dark = Make(world);
+  world.light.sun *= 400.0F;
+  world.light.ambient *= 400.0F;
+  const auto bright = Make(world);
+  DepthPicture depth;
+  for (View view : SomeViews()) {
+    bright->Depth(view, depth);
+    for (const bool colour : {false, true}) {
+      Picture expected;
+      Picture picture;
+      colour ? bright->Colour(view, expected) : bright->Grey(view, expected);
+      View gained = view;
+      gained.brightness = 20.0F;  // light enters by its root
+      colour ? dark->Colour(gained, picture) : dark->Grey(gained, picture);
+      const auto bytes_a_pixel = static_cast<std::size_t>(picture.channels);
+      for (std::size_t i = 0; i < picture.bytes.size(); ++i) {
+        if (depth.metres[i / bytes_a_pixel] == 0.0F) continue;     // the sky has its own light
+        ASSERT_NEAR(picture.bytes[i], expected.bytes[i], 1) << i;  // roots and products are rounded
+      }
+    }
+  }
+}
+
+TEST_P(AnyRenderer, BrightnessScalesTheSkyAndStopsAt255) {
+  const auto renderer = Make({});
+  View view = LookAt({0, 0, 1}, {1, 0, 1.6});
+  Picture nominal;
+  Picture half;
+  Picture full;
+  renderer->Colour(view, nominal);
+  view.brightness = 0.5F;
+  renderer->Colour(view, half);
+  view.brightness = 100.0F;
+  renderer->Colour(view, full);
+  for (std::size_t i = 0; i < nominal.bytes.size(); ++i) {
+    ASSERT_NEAR(half.bytes[i], 0.5 * nominal.bytes[i], 0.76);  // two roundings: half a level and a quarter
+    ASSERT_EQ(full.bytes[i], 255);
+  }
+  for (const float wrong : {-0.1F, std::numeric_limits<float>::infinity(), std::nanf("")}) {
+    view.brightness = wrong;
+    EXPECT_THROW(renderer->Colour(view, full), base::InputError);
   }
 }
 

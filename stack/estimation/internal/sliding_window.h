@@ -14,7 +14,7 @@
 #include "stack/estimation/internal/reprojection_factor.h"
 #include "stack/estimation/odometry.h"
 #include "stack/estimation/odometry_config.h"
-#include "stack/features/camera_model.h"
+#include "stack/features/stereo_rig.h"
 
 namespace alula::stack::estimation {
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <vector>
 
-#include "stack/features/camera_model.h"
+#include "stack/features/stereo_rig.h"
 #include "stack/features/internal/pyramid.h"
 
 namespace alula::stack::features {

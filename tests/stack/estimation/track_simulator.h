@@ -82,9 +82,9 @@ class TrackSimulator {
     const Vec3 p = (m.X_WB * truth_.cameras[eye].X_BC).Inverse() * p_W;
     if (p.z() < 0.4 || p.z() > 30) return std::nullopt;
     const base::Vec2 pixel(real.fx * p.x() / p.z() + real.cx, real.fy * p.y() / p.z() + real.cy);
-    if (!features::Inside(real, pixel, 10)) return std::nullopt;
+    if (!Inside(real, pixel, 10)) return std::nullopt;
     const base::Vec2 noisy(pixel.x() + noise_ * random_.Gaussian(), pixel.y() + noise_ * random_.Gaussian());
-    return features::Normalise(told, noisy);
+    return Normalise(told, noisy);
   }
 
   Calibration truth_, told_;

@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "stack/features/camera_model.h"
+#include "stack/features/stereo_rig.h"
 #include "stack/features/stereo_tracker.h"
 #include "stack/features/translation_ransac.h"
 
