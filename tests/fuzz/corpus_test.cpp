@@ -92,6 +92,6 @@ TEST_P(FuzzCorpus, NeitherDoItsMutations) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Parsers, FuzzCorpus, ::testing::ValuesIn(kTargets),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace
