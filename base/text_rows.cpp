@@ -25,14 +25,10 @@ bool Parse(std::string_view text, Number& value) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
-/// The cell for a message: cut where it is long, and of characters that print.
+/// The cell for a message, cut where it is long.
 std::string Quoted(std::string_view text) {
   constexpr std::size_t kShown = 40;
-  std::string shown(text.substr(0, kShown));
-  for (char& c : shown) {
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
-  }
-  return "`" + shown + (text.size() > kShown ? "…`" : "`");
+  return "`" + std::string(text.substr(0, kShown)) + (text.size() > kShown ? "…`" : "`");
 }
 
 }  // namespace
