@@ -156,22 +156,8 @@ void Lens::Sample(const std::uint8_t* canvas, int channels, const Rows& image, s
     std::copy_n(canvas + begin * step, count * step, out);
     return;
   }
-  const std::ptrdiff_t stride = sources_.front().intrinsics.width;
-  if (channels == 1) {
-    static const internal::RemapKernel kernel = internal::ChooseRemap();
-    kernel(canvas, stride, pixel_.data() + begin, right_.data() + begin, down_.data() + begin, count, out);
-    return;
-  }
-  for (std::size_t i = begin; i < begin + count; ++i) {
-    const std::uint8_t* p = canvas + static_cast<std::size_t>(channels) * pixel_[i];
-    const std::uint32_t x = right_[i], y = down_[i];
-    for (int c = 0; c < channels; ++c, ++p) {
-      const std::uint8_t* q = p + stride * channels;
-      const std::uint32_t upper = p[0] * (256 - x) + p[channels] * x;
-      const std::uint32_t lower = q[0] * (256 - x) + q[channels] * x;
-      *out++ = static_cast<std::uint8_t>((upper * (256 - y) + lower * y + 32768) >> 16);
-    }
-  }
+  internal::ChooseRemap(channels)(canvas, sources_.front().intrinsics.width, pixel_.data() + begin,
+                                  right_.data() + begin, down_.data() + begin, count, out);
 }
 
 void Lens::SampleDepth(const float* canvas, DepthPicture& out) const {

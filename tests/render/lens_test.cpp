@@ -131,25 +131,33 @@ TEST(Lens, NeedsOnlyTheRowsItSays) {
 }
 
 TEST(Lens, KernelsGiveOneAnswer) {
-  base::RandomStream random(1, "remap");
-  std::vector<std::uint8_t> canvas(200 * 100);
-  for (std::uint8_t& byte : canvas) byte = static_cast<std::uint8_t>(random.Index(256));
-  constexpr std::size_t kCount = 1003;
-  std::vector<std::uint32_t> pixel;
-  std::vector<std::uint8_t> right, down, a(kCount), b(kCount);
-  for (std::size_t i = 0; i < kCount; ++i) {
-    pixel.push_back(static_cast<std::uint32_t>(random.Index(200 * 98)));
-    right.push_back(static_cast<std::uint8_t>(random.Index(256)));
-    down.push_back(static_cast<std::uint8_t>(random.Index(256)));
+  for (const std::size_t channels : {1UL, 3UL}) {
+    base::RandomStream random(1, "remap");
+    std::vector<std::uint8_t> canvas(200 * 100 * channels);
+    for (std::uint8_t& byte : canvas) byte = static_cast<std::uint8_t>(random.Index(3) == 0 ? 255 : random.Index(256));
+    constexpr std::size_t kCount = 1003;
+    std::vector<std::uint32_t> pixel;
+    std::vector<std::uint8_t> right, down, a(kCount * channels), b(kCount * channels);
+    for (std::size_t i = 0; i < kCount; ++i) {
+      pixel.push_back(static_cast<std::uint32_t>(random.Index(200 * 98)));
+      right.push_back(static_cast<std::uint8_t>(random.Index(256)));
+      down.push_back(static_cast<std::uint8_t>(i % 5 == 0 ? 0 : random.Index(256)));
+    }
+    const auto baseline = channels == 1 ? internal::RemapBaseline : internal::RemapColourBaseline;
+    baseline(canvas.data(), 200, pixel.data(), right.data(), down.data(), kCount, a.data());
+    internal::ChooseRemap(static_cast<int>(channels))(canvas.data(), 200, pixel.data(), right.data(), down.data(),
+                                                      kCount, b.data());
+    EXPECT_EQ(a, b);
+    for (std::size_t i = 0; i < kCount; i += 50) {  // the formula once more, in real numbers
+      for (std::size_t c = 0; c < channels; ++c) {
+        const auto at = [&](std::size_t place) { return static_cast<double>(canvas[channels * place + c]); };
+        const double x = right[i] / 256.0, y = down[i] / 256.0;
+        const double upper = at(pixel[i]) * (1 - x) + at(pixel[i] + 1) * x;
+        const double lower = at(pixel[i] + 200) * (1 - x) + at(pixel[i] + 201) * x;
+        EXPECT_EQ(a[channels * i + c], static_cast<int>(upper * (1 - y) + lower * y + 0.5));
+      }
+    }
   }
-  internal::RemapBaseline(canvas.data(), 200, pixel.data(), right.data(), down.data(), kCount, a.data());
-  internal::ChooseRemap()(canvas.data(), 200, pixel.data(), right.data(), down.data(), kCount, b.data());
-  EXPECT_EQ(a, b);
-  EXPECT_EQ(a[5],
-            static_cast<int>(std::floor(  // the formula once more, in real numbers
-                0.5 + ((canvas[pixel[5]] * (256.0 - right[5]) + canvas[pixel[5] + 1] * right[5]) * (256.0 - down[5]) +
-                       (canvas[pixel[5] + 200] * (256.0 - right[5]) + canvas[pixel[5] + 201] * right[5]) * down[5]) /
-                          65536)));
 }
 
 TEST(Lens, DepthIsThatOfTheCamerasOwnAxis) {
