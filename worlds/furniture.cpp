@@ -18,36 +18,38 @@ Transform Upright(const Vec2& p, double z, double yaw = 0.0) { return {base::Fro
 }  // namespace
 
 std::size_t AddObject(World& world, std::string name, geometry::Shape shape, const Transform& X_WO, int material,
-                      double texture_scale) {
-  world.objects.push_back({std::move(name), std::move(shape), X_WO, material, texture_scale, true});
+                      double texture_scale, SemanticClass semantic) {
+  world.objects.push_back({std::move(name), std::move(shape), X_WO, material, texture_scale, true, semantic});
   return world.objects.size() - 1;
 }
 
 void AddTree(World& world, const Looks& looks, const std::string& name, const Footprint& at, RandomStream& random) {
   const double trunk = random.Uniform(1.5, 2.1);
   AddObject(world, name + "/trunk", geometry::Cylinder{random.Uniform(0.09, 0.17), 0.5 * trunk},
-            Upright(at.centre, 0.5 * trunk), looks.bark, 0.8);
+            Upright(at.centre, 0.5 * trunk), looks.bark, 0.8, SemanticClass::kTree);
   const int leaf = looks.foliage[random.Index(looks.foliage.size())];
   for (int i = 0; i < 3; ++i) {
     const double radius = at.radius * random.Uniform(0.55, 0.75);
     const double direction = 2.0 * kPi * (i + random.Uniform()) / 3.0;
     const Vec2 p = at.centre + (at.radius - radius) * Vec2(std::cos(direction), std::sin(direction));
     AddObject(world, name + "/crown" + std::to_string(i), geometry::Sphere{radius},
-              Upright(p, trunk + random.Uniform(0.1, 0.8), random.Uniform(0.0, 2.0 * kPi)), leaf, 1.6);
+              Upright(p, trunk + random.Uniform(0.1, 0.8), random.Uniform(0.0, 2.0 * kPi)), leaf, 1.6,
+              SemanticClass::kTree);
   }
 }
 
 void AddConifer(World& world, const Looks& looks, const std::string& name, const Footprint& at, RandomStream& random) {
   const double bare = random.Uniform(0.3, 0.6);
   AddObject(world, name + "/trunk", geometry::Cylinder{0.2 * at.radius, 0.5 * (bare + 0.3)},
-            Upright(at.centre, 0.5 * (bare + 0.3)), looks.bark, 0.8);
+            Upright(at.centre, 0.5 * (bare + 0.3)), looks.bark, 0.8, SemanticClass::kTree);
   const int leaf = looks.foliage[random.Index(looks.foliage.size())];
   const double lower = random.Uniform(0.7, 0.9);
   const double upper = random.Uniform(0.6, 0.8);
   AddObject(world, name + "/crown0", geometry::Cone{at.radius, lower},
-            Upright(at.centre, bare + lower, random.Uniform(0.0, 2.0 * kPi)), leaf, 1.6);
+            Upright(at.centre, bare + lower, random.Uniform(0.0, 2.0 * kPi)), leaf, 1.6, SemanticClass::kTree);
   AddObject(world, name + "/crown1", geometry::Cone{0.75 * at.radius, upper},
-            Upright(at.centre, bare + 1.1 * lower + upper, random.Uniform(0.0, 2.0 * kPi)), leaf, 1.3);
+            Upright(at.centre, bare + 1.1 * lower + upper, random.Uniform(0.0, 2.0 * kPi)), leaf, 1.3,
+            SemanticClass::kTree);
 }
 
 void AddCrates(World& world, const Looks& looks, const std::string& name, const Footprint& at, int stacked,
@@ -91,7 +93,7 @@ void AddGate(World& world, int material, const std::string& name, const GatePlan
   const double below = plan.height - 0.5 * plan.opening - plan.frame;  // room under the frame
   const auto part = [&](const char* what, const Vec3& p_G, const Vec3& half_extents) {
     AddObject(world, name + "/" + what, geometry::Box{half_extents}, X_WG * Transform{base::Quat::Identity(), p_G},
-              material, 1.3);
+              material, 1.3, SemanticClass::kGate);
   };
   part("left", {0.0, side, 0.0}, {bar, bar, side + bar});
   part("right", {0.0, -side, 0.0}, {bar, bar, side + bar});
@@ -106,7 +108,7 @@ void AddGate(World& world, int material, const std::string& name, const GatePlan
 
 void AddPad(World& world, int material, const Vec2& centre, double radius) {
   AddObject(world, "pad", geometry::Cylinder{radius, 0.5 * kPadHeight}, Upright(centre, 0.5 * kPadHeight), material,
-            2.0 * radius);
+            2.0 * radius, SemanticClass::kPad);
   world.pad_object = "pad";
   world.pad_radius = radius;
 }

@@ -27,7 +27,7 @@ Looks AddCourtyardMaterials(World& world, int texture_size, std::uint64_t seed);
 
 /// Adds one object; gives its index.
 std::size_t AddObject(World& world, std::string name, geometry::Shape shape, const base::Transform& X_WO, int material,
-                      double texture_scale);
+                      double texture_scale, SemanticClass semantic = SemanticClass::kObstacle);
 
 /// Things that stand on the ground (z = 0) at a footprint; they stay inside its circle. Sizes and looks come from
 /// `random`. Parts are named "<name>/<part>".

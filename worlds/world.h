@@ -8,6 +8,7 @@
 #include "base/frames.h"
 #include "geometry/material.h"
 #include "geometry/shape.h"
+#include "worlds/semantic_class.h"
 
 namespace alula::worlds {
 
@@ -19,6 +20,7 @@ struct Object {
   int material = 0;            // index into World::materials
   double texture_scale = 1.0;  // metres per texture period
   bool collides = true;        // Bullet sees it (the renderer always does)
+  SemanticClass semantic = SemanticClass::kObstacle;
 };
 
 /// A square gate's opening: x along the direction of passage, z up, origin mid-opening.

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "render/internal/shaders.h"
 #include "render/internal/sky.h"
+#include "render/internal/visible_order.h"
 
 namespace alula::render::internal {
 namespace {
@@ -19,7 +20,11 @@ std::string Describe(const GlContext& context) {
 
 GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& world, std::span<const Mover> movers,
                        Options options)
-    : context_(std::move(context)), options_(options), light_(world.light), X_WM_(movers.size()) {
+    : context_(std::move(context)),
+      options_(options),
+      light_(world.light),
+      X_WM_(movers.size()),
+      classes_(ClassesOf(world, movers)) {
   const CurrentContext current(*context_);
   const GlFunctions& gl = current.gl();
   description_ = Describe(*context_);
@@ -28,6 +33,7 @@ GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& 
   grey_ = std::make_unique<GlProgram>(gl, kSurfaceVertex, kGreyFragment);
   colour_ = std::make_unique<GlProgram>(gl, kSurfaceVertex, kColourFragment);
   depth_ = std::make_unique<GlProgram>(gl, kPositionVertex, kDepthFragment);
+  normal_ = std::make_unique<GlProgram>(gl, kNormalVertex, kNormalFragment);
   sky_ = std::make_unique<GlProgram>(gl, kSkyVertex, kSkyFragment);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
@@ -93,6 +99,24 @@ void GlRenderer::Depth(const View& view, DepthPicture& out) {
   CheckErrors();
 }
 
+void GlRenderer::Surface(const View& view, SurfacePicture& out) {
+  CheckView(view);
+  const CurrentContext current(*context_);
+  Begin(view, PixelKind::kSurface);
+  DrawInstances(view);
+  Resize(view, out);
+  out.first_mover = static_cast<std::uint32_t>(scene_->geometry().statics.size()) + 1;
+  surface_.resize(4 * out.instances.size());
+  current.gl().ReadPixels(0, 0, out.width, out.height, GL_RGBA, GL_FLOAT, surface_.data());
+  for (std::size_t i = 0; i < out.instances.size(); ++i) {
+    const float* pixel = surface_.data() + 4 * i;
+    out.normals[i] = {pixel[0], pixel[1], pixel[2]};
+    out.instances[i] = static_cast<std::uint32_t>(pixel[3]);  // whole numbers below 2²⁴ are exact
+    out.classes[i] = classes_[out.instances[i]];
+  }
+  CheckErrors();
+}
+
 void GlRenderer::Begin(const View& view, PixelKind kind) {
   targets_->Bind(view.intrinsics.width, view.intrinsics.height, kind);
   context_->gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
@@ -122,6 +146,28 @@ void GlRenderer::DrawMovers(const View& view, const GlProgram& program, int chan
     if (options_.cull && !MayBeVisible(frustum, movers[i].low, movers[i].high)) continue;
     program.SetAffine("world_from_model", world_from_mover);
     scene_->Draw(AllRuns(std::span(&movers[i], 1), channels == 0), channels);
+  }
+}
+
+/// One call a batch: each has its own number.
+void GlRenderer::DrawInstances(const View& view) {
+  const Eigen::Matrix4d clip_from_world = ClipFromWorld(view);
+  normal_->Use();
+  scene_->Bind(*normal_);
+  normal_->Set("clip_from_world", clip_from_world);
+  normal_->Set("camera_from_world", view.X_WC.Inverse().R());
+  const std::vector<Batch>& statics = scene_->geometry().statics;
+  const std::vector<Batch>& movers = scene_->geometry().movers;
+  for (std::size_t i = 0; view.draw_movers && i < movers.size(); ++i) {
+    normal_->SetAffine("world_from_model", X_WM_[i]);
+    normal_->Set("instance", static_cast<float>(statics.size() + i + 1));
+    scene_->Draw(AllRuns(std::span(&movers[i], 1), true), 0);
+  }
+  normal_->SetAffine("world_from_model", base::Transform{});
+  const Frustum frustum = FrustumOf(clip_from_world);
+  for (const std::uint32_t i : VisibleOrder(statics, options_.cull ? &frustum : nullptr, view.X_WC.p)) {
+    normal_->Set("instance", static_cast<float>(i + 1));
+    scene_->Draw(AllRuns(std::span(&statics[i], 1), true), 0);
   }
 }
 

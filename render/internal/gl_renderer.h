@@ -8,6 +8,7 @@
 #include "render/internal/gl_context.h"
 #include "render/internal/gpu_scene.h"
 #include "render/internal/render_target.h"
+#include "render/internal/surface_classes.h"
 
 namespace alula::render::internal {
 
@@ -25,11 +26,13 @@ class GlRenderer final : public CameraRenderer {
   void Grey(const View& view, Picture& out) override;
   void Colour(const View& view, Picture& out) override;
   void Depth(const View& view, DepthPicture& out) override;
+  void Surface(const View& view, SurfacePicture& out) override;
   std::string Description() const override { return description_; }
 
  private:
   void DrawSurfaces(const View& view, const GlProgram& program, int channels);
   void DrawMovers(const View& view, const GlProgram& program, int channels);
+  void DrawInstances(const View& view);
   void DrawSky(const View& view, int channels);
   void Begin(const View& view, PixelKind kind);
   void CheckErrors() const;
@@ -39,11 +42,13 @@ class GlRenderer final : public CameraRenderer {
   worlds::Light light_;
   std::vector<base::Transform> X_WM_;
   std::string description_;
-  std::vector<std::uint8_t> rgba_;  // scratch of the colour pass
+  std::vector<worlds::SemanticClass> classes_;  // by instance
+  std::vector<std::uint8_t> rgba_;              // scratch of the colour pass
+  std::vector<float> surface_;                  // scratch of the surface pass
   // Made once the context is current.
   std::unique_ptr<GpuScene> scene_;
   std::unique_ptr<RenderTargets> targets_;
-  std::unique_ptr<GlProgram> grey_, colour_, depth_, sky_;
+  std::unique_ptr<GlProgram> grey_, colour_, depth_, normal_, sky_;
 };
 
 }  // namespace alula::render::internal

@@ -69,6 +69,27 @@ inline constexpr const char* kDepthFragment = R"(#version 330 core
 layout(location = 0) out float metres;
 void main() { metres = 1.0 / gl_FragCoord.w; }
 )";
+
+/// Normal in camera axes, and which instance it is of.
+inline constexpr const char* kNormalVertex = R"(#version 330 core
+layout(location = 0) in vec3 position;
+layout(location = 1) in vec3 normal_in;
+uniform mat4 clip_from_world;
+uniform mat4x3 world_from_model;
+uniform mat3 camera_from_world;
+out vec3 normal;
+void main() {
+  normal = camera_from_world * (mat3(world_from_model) * normal_in);
+  gl_Position = clip_from_world * vec4(world_from_model * vec4(position, 1.0), 1.0);
+}
+)";
+inline constexpr const char* kNormalFragment = R"(#version 330 core
+in vec3 normal;
+uniform float instance;
+layout(location = 0) out vec4 value;
+void main() { value = vec4(normalize(normal), instance); }
+)";
+
 inline constexpr const char* kShadowFragment = R"(#version 330 core
 void main() {}
 )";

@@ -111,6 +111,34 @@ struct ShadeJob {
   std::uint8_t* out;     // rows of width · channels
 };
 
+/// A normal (world axes, by the vertices' interpolation) over depth as planes over the picture, about a pixel that the
+/// triangle covers.
+struct alignas(64) NormalPlanes {
+  float at[3];
+  float by_x[3];
+  float by_y[3];
+  float reference_x;  // px
+  float reference_y;
+  std::uint32_t frame;  // that they were made for
+};
+
+struct NormalJob {
+  Target target;
+  Vertices vertices;
+  const float* normals;  // [3] a vertex, world axes
+  const std::uint32_t* corners[3];
+  const std::uint32_t* drawn;  // numbers of the triangles that the target's ids speak of
+  NormalPlanes* planes;        // one each, made when first needed
+  std::uint32_t frame;         // never the same twice
+};
+
+/// The normals of a picture, in axes of the caller's choice.
+struct NormalPictureJob {
+  NormalJob normals;
+  float rotation[9];  // from world axes, row by row
+  float* out;         // [3] a pixel, rows from the top; 0 where nothing is seen
+};
+
 /// The inner loops, one table for each instruction set. Both tables give the same bits.
 struct Kernels {
   const char* name;
@@ -122,6 +150,7 @@ struct Kernels {
   void (*shade)(const ShadeJob& job);
   /// Depth in m of each pixel, 0 where nothing is nearer than 1/`farthest`.
   void (*metres)(const Target& target, float farthest, float* out);
+  void (*normals)(const NormalPictureJob& job);
 };
 const Kernels& ScalarKernels();
 /// Null where this processor or this build does not have AVX2.

@@ -13,9 +13,10 @@ namespace {
 #include "render/raster/fragments.inc"
 #include "render/raster/sampling.inc"
 #include "render/raster/shade.inc"
+#include "render/raster/normals.inc"
 // clang-format on
 
-constexpr Kernels kKernels{"avx2", Transform, Draw, DrawOne, Shade, Metres};
+constexpr Kernels kKernels{"avx2", Transform, Draw, DrawOne, Shade, Metres, Normals};
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 #include "render/internal/projection.h"
 #include "render/internal/sky.h"
+#include "render/internal/surface_classes.h"
 #include "render/internal/visible_order.h"
 #include "render/raster/occlusion.h"
 #include "render/raster/shadow_map.h"
@@ -44,14 +45,16 @@ void SetSky(const View& view, const internal::SkyColours& sky, ShadeJob& job) {
 }  // namespace
 
 RasterRenderer::RasterRenderer(const Kernels& kernels, const worlds::World& world, std::span<const Mover> movers)
-    : RasterRenderer(kernels, internal::BuildScene(world, movers), world) {}
+    : RasterRenderer(kernels, internal::BuildScene(world, movers), world, movers) {}
 
-RasterRenderer::RasterRenderer(const Kernels& kernels, internal::SceneGeometry geometry, const worlds::World& world)
+RasterRenderer::RasterRenderer(const Kernels& kernels, internal::SceneGeometry geometry, const worlds::World& world,
+                               std::span<const Mover> movers)
     : kernels_(&kernels),
       light_(world.light),
       shadow_frame_(internal::FrameShadow(world, geometry.low, geometry.high)),
       scene_(std::move(geometry), LightingOf(world.light, shadow_frame_)),
       shadow_map_(DrawShadowMap(scene_, shadow_frame_, kernels)),
+      classes_(internal::ClassesOf(world, movers)),
       drawn_numbers_(scene_.triangles()) {}
 
 void RasterRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
@@ -163,6 +166,38 @@ void RasterRenderer::Depth(const View& view, DepthPicture& out) {
   out.height = view.intrinsics.height;
   out.metres.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
   kernels_->metres(DrawView(view, false), static_cast<float>(internal::kFar), out.metres.data());
+}
+
+NormalJob RasterRenderer::NormalsFor(const Target& target) {
+  if (normal_planes_.size() < drawn_.count) normal_planes_.resize(drawn_.count);
+  return {target,
+          scene_.vertices(),
+          scene_.normals(),
+          {scene_.corners(0), scene_.corners(1), scene_.corners(2)},
+          drawn_.numbers,
+          normal_planes_.data(),
+          frame_};
+}
+
+void RasterRenderer::Surface(const View& view, SurfacePicture& out) {
+  internal::CheckView(view);
+  internal::Resize(view, out);
+  out.first_mover = static_cast<std::uint32_t>(scene_.statics()) + 1;
+  const Target target = DrawView(view, true);
+  ++frame_;
+  NormalPictureJob job{NormalsFor(target), {}, out.normals.front().data()};
+  const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> R_CW = view.X_WC.Inverse().R().cast<float>();
+  std::copy_n(R_CW.data(), 9, job.rotation);
+  kernels_->normals(job);
+  std::size_t pixel = 0;
+  for (int y = 0; y < out.height; ++y) {
+    const std::uint32_t* tiles = target.ids + (y / kTile * target.tiles_x * kTile + y % kTile) * kTile;
+    for (int x = 0; x < out.width; ++x, ++pixel) {
+      const std::uint32_t id = tiles[x / kTile * kTile * kTile + x % kTile];
+      out.instances[pixel] = id == 0 ? 0 : scene_.part_of(drawn_.numbers[id - 1]) + 1;
+      out.classes[pixel] = classes_[out.instances[pixel]];
+    }
+  }
 }
 
 }  // namespace alula::render::raster

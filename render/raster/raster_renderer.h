@@ -23,15 +23,18 @@ class RasterRenderer final : public CameraRenderer {
   void Grey(const View& view, Picture& out) override { Paint(view, 1, out); }
   void Colour(const View& view, Picture& out) override { Paint(view, 3, out); }
   void Depth(const View& view, DepthPicture& out) override;
+  void Surface(const View& view, SurfacePicture& out) override;
   std::string Description() const override { return std::string("raster ") + kernels_->name; }
 
  private:
-  RasterRenderer(const Kernels& kernels, internal::SceneGeometry geometry, const worlds::World& world);
+  RasterRenderer(const Kernels& kernels, internal::SceneGeometry geometry, const worlds::World& world,
+                 std::span<const Mover> movers);
   void Paint(const View& view, int channels, Picture& out);
   /// The visibility buffer of a view; without ids for depth alone.
   Target DrawView(const View& view, bool with_ids);
   void DrawClipped(const Target& target, std::uint32_t triangle);
   const PackedTextures& Textures(int channels);
+  NormalJob NormalsFor(const Target& target);
 
   const Kernels* kernels_;
   worlds::Light light_;
@@ -40,11 +43,13 @@ class RasterRenderer final : public CameraRenderer {
   std::vector<std::uint32_t> shadow_map_;
   std::optional<PackedTextures> grey_;
   std::optional<PackedTextures> colour_;
+  std::vector<worlds::SemanticClass> classes_;  // by instance
   std::uint32_t frame_ = 0;
   // Scratch of a picture.
   std::vector<std::uint32_t> drawn_numbers_;
   DrawnList drawn_{};
   std::vector<TrianglePlanes> planes_;
+  std::vector<NormalPlanes> normal_planes_;
   VisibilityBuffer buffer_;
   std::vector<std::uint32_t> to_clip_;
   std::vector<Corner> polygon_;

@@ -35,13 +35,17 @@ RasterScene::RasterScene(internal::SceneGeometry geometry, const Lighting& light
   boxes_.insert(boxes_.end(), geometry_.movers.begin(), geometry_.movers.end());
   const std::size_t triangles = geometry_.indices.size() / 3;
   texture_of_triangle_.resize(triangles);
+  part_of_triangle_.resize(triangles);
+  normals_.resize(3 * geometry_.vertices.size());
   for (std::size_t i = 0; i < 3; ++i) {
     corners_[i].assign(triangles + kTile, 0);
     for (std::size_t t = 0; t < triangles; ++t) corners_[i][t] = geometry_.indices[3 * t + i];
   }
   for (const internal::Batch& batch : boxes_) {
     const Part part = PartOf(geometry_, batch);
+    const auto number = static_cast<std::uint32_t>(parts_.size());
     parts_.push_back(part);
+    std::fill_n(part_of_triangle_.begin() + static_cast<std::ptrdiff_t>(part.first_triangle), part.triangles, number);
     std::fill_n(texture_of_triangle_.begin() + static_cast<std::ptrdiff_t>(part.first_triangle), part.triangles,
                 static_cast<std::uint32_t>(batch.material));
   }
@@ -81,6 +85,7 @@ void RasterScene::PointAtArrays() {
 void RasterScene::Place(std::size_t vertex, const Eigen::Vector3f& p, const Eigen::Vector3f& n) {
   const Lighting& l = lighting_;
   for (int axis = 0; axis < 3; ++axis) positions_[axis][vertex] = p[axis];
+  for (int axis = 0; axis < 3; ++axis) normals_[3 * vertex + static_cast<std::size_t>(axis)] = n[axis];
   const float facing = n.dot(l.to_sun);
   const float sky = l.ambient * (0.75F + 0.20F * n.z() + 0.10F * facing);
   const float sun = l.sun * std::max(facing, 0.0F);

@@ -45,6 +45,10 @@ class RasterScene {
   /// First (0), second or third corners of all triangles.
   const std::uint32_t* corners(int i) const { return corners_[static_cast<std::size_t>(i)].data(); }
   const std::vector<std::uint32_t>& texture_of_triangle() const { return texture_of_triangle_; }
+  /// Number of the part that a triangle belongs to.
+  std::uint32_t part_of(std::uint32_t triangle) const { return part_of_triangle_[triangle]; }
+  /// Of all vertices, world axes, three floats each.
+  const float* normals() const { return normals_.data(); }
   /// The view's arrays are shared by all views: each transforms anew what it draws.
   const Vertices& vertices() const { return vertices_; }
 
@@ -57,6 +61,8 @@ class RasterScene {
   std::vector<internal::Batch> boxes_;
   std::vector<Part> parts_;
   std::vector<std::uint32_t> texture_of_triangle_;
+  std::vector<std::uint32_t> part_of_triangle_;
+  std::vector<float> normals_;
   std::array<std::vector<std::uint32_t>, 3> corners_;
   std::vector<float> floats_;  // x, y, z, attributes, column, row, depth, inverse depth, one after another
   std::vector<std::int32_t> integers_;

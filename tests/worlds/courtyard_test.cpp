@@ -286,5 +286,27 @@ TEST(Courtyard, AMissingPropIsNamed) {
   }
 }
 
+TEST(Courtyard, EveryObjectSaysWhatItIs) {
+  const World world = MakeCourtyard(Small(), 2);
+  const auto expected = [](const std::string& name) {
+    const std::pair<const char*, SemanticClass> beginnings[] = {
+        {"ground/", SemanticClass::kGround}, {"wall/", SemanticClass::kWall}, {"gate", SemanticClass::kGate},
+        {"pad", SemanticClass::kPad},        {"tree", SemanticClass::kTree},
+    };
+    for (const auto& [beginning, semantic] : beginnings) {
+      if (name.starts_with(beginning)) return semantic;
+    }
+    // Of the blockers, conifers alone have crowns and trunks.
+    const bool tree = name.find("/crown") != std::string::npos || name.find("/trunk") != std::string::npos;
+    return tree ? SemanticClass::kTree : SemanticClass::kObstacle;
+  };
+  std::set<SemanticClass> met;
+  for (const Object& object : world.objects) {
+    EXPECT_EQ(NameOf(object.semantic), NameOf(expected(object.name))) << object.name;
+    met.insert(object.semantic);
+  }
+  EXPECT_EQ(met.size(), 6U);  // all but sky and vehicle
+}
+
 }  // namespace
 }  // namespace alula::worlds
