@@ -20,6 +20,7 @@ struct Material {
   std::string name;
   Eigen::Vector3f colour = Eigen::Vector3f::Ones();
   std::shared_ptr<const Texture> texture;  // null: plain colour
+  float infrared = 1.0F;                   // factor on the albedo as an infrared camera sees it: leaves some 2
 };
 
 }  // namespace alula::geometry

@@ -190,8 +190,11 @@ Light DrawLight(const CourtyardConfig& config, std::uint64_t seed) {
   Light light;
   light.to_sun_W = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                     std::sin(elevation)};
-  light.sun = static_cast<float>(random.Uniform(0.5, 0.75));
-  light.ambient = static_cast<float>(random.Uniform(0.32, 0.42));
+  light.sun = static_cast<float>(config.sunlight * random.Uniform(0.5, 0.75));
+  light.ambient = static_cast<float>(config.skylight * random.Uniform(0.32, 0.42));
+  light.sky_brightness = static_cast<float>(std::sqrt(config.skylight));  // displayed values are roots of light
+  light.fog = config.fog;
+  light.lamps = config.lamps;
   return light;
 }
 

@@ -2,12 +2,14 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/frames.h"
 #include "geometry/material.h"
 #include "geometry/shape.h"
+#include "worlds/lighting.h"
 #include "worlds/semantic_class.h"
 
 namespace alula::worlds {
@@ -43,6 +45,9 @@ struct Light {
   float sun = 0.7F;                           // strength of direct light
   float ambient = 0.35F;
   Eigen::Vector3f sky{0.62F, 0.74F, 0.90F};  // colour of the sky
+  float sky_brightness = 1.0F;               // factor on the sky as displayed: near 0 at night
+  std::optional<Fog> fog;
+  std::vector<Lamp> lamps;  // that stand in the world
 };
 
 /// What a world is: data from which Bullet, the renderer and the criteria are built. Nothing here moves.

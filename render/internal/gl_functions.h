@@ -64,6 +64,7 @@ namespace alula::render::internal {
   F(Uniform1f, UNIFORM1F)                             \
   F(Uniform1i, UNIFORM1I)                             \
   F(Uniform3fv, UNIFORM3FV)                           \
+  F(Uniform4fv, UNIFORM4FV)                           \
   F(UniformMatrix3fv, UNIFORMMATRIX3FV)               \
   F(UniformMatrix4fv, UNIFORMMATRIX4FV)               \
   F(UniformMatrix4x3fv, UNIFORMMATRIX4X3FV)           \

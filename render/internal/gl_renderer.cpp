@@ -8,6 +8,11 @@
 namespace alula::render::internal {
 namespace {
 
+TextureKind TextureKindOf(const View& view, int channels) {
+  if (channels == 3) return TextureKind::kColour;
+  return view.infrared ? TextureKind::kInfrared : TextureKind::kLuma;
+}
+
 std::string Describe(const GlContext& context) {
   const auto text = [&context](GLenum name) {
     const auto* words = reinterpret_cast<const char*>(context.gl().GetString(name));
@@ -27,11 +32,10 @@ GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& 
       classes_(ClassesOf(world, movers)) {
   const CurrentContext current(*context_);
   const GlFunctions& gl = current.gl();
+  CheckLight(light_);
   description_ = Describe(*context_);
   scene_ = std::make_unique<GpuScene>(gl, BuildScene(world, movers), world);
   targets_ = std::make_unique<RenderTargets>(gl);
-  grey_ = std::make_unique<GlProgram>(gl, kSurfaceVertex, kGreyFragment);
-  colour_ = std::make_unique<GlProgram>(gl, kSurfaceVertex, kColourFragment);
   depth_ = std::make_unique<GlProgram>(gl, kPositionVertex, kDepthFragment);
   normal_ = std::make_unique<GlProgram>(gl, kNormalVertex, kNormalFragment);
   sky_ = std::make_unique<GlProgram>(gl, kSkyVertex, kSkyFragment);
@@ -57,8 +61,7 @@ void GlRenderer::Grey(const View& view, Picture& out) {
   CheckView(view);
   const CurrentContext current(*context_);
   Begin(view, PixelKind::kGrey);
-  DrawSurfaces(view, *grey_, 1);
-  DrawSky(view, 1);
+  Paint(view, 1);
   out.width = view.intrinsics.width;
   out.height = view.intrinsics.height;
   out.channels = 1;
@@ -71,8 +74,7 @@ void GlRenderer::Colour(const View& view, Picture& out) {
   CheckView(view);
   const CurrentContext current(*context_);
   Begin(view, PixelKind::kColour);
-  DrawSurfaces(view, *colour_, 3);
-  DrawSky(view, 3);
+  Paint(view, 3);
   out.width = view.intrinsics.width;
   out.height = view.intrinsics.height;
   out.channels = 3;
@@ -91,7 +93,7 @@ void GlRenderer::Depth(const View& view, DepthPicture& out) {
   CheckView(view);
   const CurrentContext current(*context_);
   Begin(view, PixelKind::kMetres);
-  DrawSurfaces(view, *depth_, 0);
+  DrawSurfaces(view, *depth_, TextureKind::kNone);
   out.width = view.intrinsics.width;
   out.height = view.intrinsics.height;
   out.metres.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
@@ -122,20 +124,49 @@ void GlRenderer::Begin(const View& view, PixelKind kind) {
   context_->gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void GlRenderer::DrawSurfaces(const View& view, const GlProgram& program, int channels) {
+const GlProgram& GlRenderer::SurfaceProgram(int channels, bool lit) {
+  std::unique_ptr<GlProgram>& program = surfaces_[(channels == 1 ? 0U : 1U) + (lit ? 2U : 0U)];
+  if (!program) {
+    std::string defines = "#define MOST_LAMPS " + std::to_string(kMostLamps) + "\n";
+    if (channels == 3) defines += "#define COLOUR\n";
+    if (lit) defines += "#define LIT\n";
+    program = std::make_unique<GlProgram>(context_->gl(), kSurfaceVertex, kSurfaceFragment, defines);
+  }
+  return *program;
+}
+
+void GlRenderer::Paint(const View& view, int channels) {
+  const AirAndLamps air = AirAndLampsOf(light_, view, channels);
+  const GlProgram& program = SurfaceProgram(channels, air.IsNeeded());
+  if (air.IsNeeded()) {
+    program.Use();
+    program.Set("eye", view.X_WC.p.cast<float>().eval());
+    program.Set("lamp_count", static_cast<int>(air.lamps.size()));
+    static_assert(sizeof(LampView) == 12 * sizeof(float));
+    const std::span lamps(reinterpret_cast<const float*>(air.lamps.data()), 12 * air.lamps.size());
+    if (!lamps.empty()) program.Set("lamps", lamps);
+    program.Set("fog", air.fog);
+    program.Set("extinction", air.extinction);
+  }
+  DrawSurfaces(view, program, TextureKindOf(view, channels));
+  DrawSky(view, channels, air);
+}
+
+void GlRenderer::DrawSurfaces(const View& view, const GlProgram& program, TextureKind kind) {
   const Eigen::Matrix4d clip_from_world = ClipFromWorld(view);
   program.Use();
   scene_->Bind(program);
   program.Set("clip_from_world", clip_from_world);
   program.Set("brightness", view.brightness);
-  if (view.draw_movers) DrawMovers(view, program, channels);
+  if (view.draw_movers) DrawMovers(view, program, kind);
   program.SetAffine("world_from_model", base::Transform{});
   const std::vector<Batch>& statics = scene_->geometry().statics;
   const Frustum frustum = FrustumOf(clip_from_world);
-  scene_->Draw(NearestFirst(statics, options_.cull ? &frustum : nullptr, view.X_WC.p, channels == 0), channels);
+  scene_->Draw(NearestFirst(statics, options_.cull ? &frustum : nullptr, view.X_WC.p, kind == TextureKind::kNone),
+               kind);
 }
 
-void GlRenderer::DrawMovers(const View& view, const GlProgram& program, int channels) {
+void GlRenderer::DrawMovers(const View& view, const GlProgram& program, TextureKind kind) {
   const std::vector<Batch>& movers = scene_->geometry().movers;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     // Planes in the mover's own frame, where its box is: columns of the clip matrix times X_WM.
@@ -145,7 +176,7 @@ void GlRenderer::DrawMovers(const View& view, const GlProgram& program, int chan
     const Frustum frustum = FrustumOf(ClipFromWorld(view) * world_from_mover);
     if (options_.cull && !MayBeVisible(frustum, movers[i].low, movers[i].high)) continue;
     program.SetAffine("world_from_model", world_from_mover);
-    scene_->Draw(AllRuns(std::span(&movers[i], 1), channels == 0), channels);
+    scene_->Draw(AllRuns(std::span(&movers[i], 1), kind == TextureKind::kNone), kind);
   }
 }
 
@@ -161,17 +192,17 @@ void GlRenderer::DrawInstances(const View& view) {
   for (std::size_t i = 0; view.draw_movers && i < movers.size(); ++i) {
     normal_->SetAffine("world_from_model", X_WM_[i]);
     normal_->Set("instance", static_cast<float>(statics.size() + i + 1));
-    scene_->Draw(AllRuns(std::span(&movers[i], 1), true), 0);
+    scene_->Draw(AllRuns(std::span(&movers[i], 1), true), TextureKind::kNone);
   }
   normal_->SetAffine("world_from_model", base::Transform{});
   const Frustum frustum = FrustumOf(clip_from_world);
   for (const std::uint32_t i : VisibleOrder(statics, options_.cull ? &frustum : nullptr, view.X_WC.p)) {
     normal_->Set("instance", static_cast<float>(i + 1));
-    scene_->Draw(AllRuns(std::span(&statics[i], 1), true), 0);
+    scene_->Draw(AllRuns(std::span(&statics[i], 1), true), TextureKind::kNone);
   }
 }
 
-void GlRenderer::DrawSky(const View& view, int channels) {
+void GlRenderer::DrawSky(const View& view, int channels, const AirAndLamps& air) {
   const stack::CameraIntrinsics& k = view.intrinsics;
   const double right = k.width - 0.5;
   const double bottom = k.height - 0.5;
@@ -181,11 +212,18 @@ void GlRenderer::DrawSky(const View& view, int channels) {
   rays.col(1) = RayDirection(view, right, 0.5 * (bottom - 0.5)) - middle;
   rays.col(2) = RayDirection(view, 0.5 * (right - 0.5), bottom) - middle;
   const SkyColours colours = SkyOf(light_, channels, view.brightness);
-  sky_->Use();
-  sky_->Set("rays", rays);
-  sky_->Set("zenith", colours.zenith);
-  sky_->Set("horizon", colours.horizon);
-  sky_->Set("ground", colours.ground);
+  const bool foggy = air.extinction > 0.0F;
+  if (foggy && !foggy_sky_) {
+    foggy_sky_ = std::make_unique<GlProgram>(context_->gl(), kSkyVertex, kSkyFragment, "#define LIT\n");
+  }
+  const GlProgram& sky = foggy ? *foggy_sky_ : *sky_;
+  sky.Use();
+  sky.Set("rays", rays);
+  sky.Set("zenith", colours.zenith);
+  sky.Set("horizon", colours.horizon);
+  sky.Set("ground", colours.ground);
+  sky.Set("fog", air.fog);
+  sky.Set("sky_depth", air.sky_depth);
   const GlFunctions& gl = context_->gl();
   gl.Disable(GL_CULL_FACE);
   gl.DrawArrays(GL_TRIANGLES, 0, 3);

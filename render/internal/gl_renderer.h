@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "render/camera_renderer.h"
+#include "render/internal/air_and_lamps.h"
 #include "render/internal/gl_context.h"
 #include "render/internal/gpu_scene.h"
 #include "render/internal/render_target.h"
@@ -30,10 +32,14 @@ class GlRenderer final : public CameraRenderer {
   std::string Description() const override { return description_; }
 
  private:
-  void DrawSurfaces(const View& view, const GlProgram& program, int channels);
-  void DrawMovers(const View& view, const GlProgram& program, int channels);
+  /// Grey or colour into the bound framebuffer.
+  void Paint(const View& view, int channels);
+  void DrawSurfaces(const View& view, const GlProgram& program, TextureKind kind);
+  void DrawMovers(const View& view, const GlProgram& program, TextureKind kind);
   void DrawInstances(const View& view);
-  void DrawSky(const View& view, int channels);
+  void DrawSky(const View& view, int channels, const AirAndLamps& air);
+  /// The surface program of grey or colour, with lamps and fog or without: made when first needed.
+  const GlProgram& SurfaceProgram(int channels, bool lit);
   void Begin(const View& view, PixelKind kind);
   void CheckErrors() const;
 
@@ -48,7 +54,8 @@ class GlRenderer final : public CameraRenderer {
   // Made once the context is current.
   std::unique_ptr<GpuScene> scene_;
   std::unique_ptr<RenderTargets> targets_;
-  std::unique_ptr<GlProgram> grey_, colour_, depth_, normal_, sky_;
+  std::unique_ptr<GlProgram> depth_, normal_, sky_, foggy_sky_;
+  std::array<std::unique_ptr<GlProgram>, 4> surfaces_;  // grey, colour; the same with lamps and fog
 };
 
 }  // namespace alula::render::internal

@@ -12,12 +12,13 @@ namespace {
 
 using Vertex = geometry::Mesh::Vertex;
 
-GLuint UploadTexture(const GlFunctions& gl, const geometry::Material& material, int channels) {
+GLuint UploadTexture(const GlFunctions& gl, const geometry::Material& material, TextureKind kind) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
   gl.BindTexture(GL_TEXTURE_2D, texture);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  const std::vector<TextureLevel> levels = TextureLevels(material, channels);
+  const std::vector<TextureLevel> levels = TextureLevels(material, kind);
+  const int channels = ChannelsOf(kind);
   GLint number = 0;
   for (const TextureLevel& level : levels) {
     gl.TexImage2D(GL_TEXTURE_2D, number++, channels == 1 ? GL_R8 : GL_RGBA8, level.width, level.height, 0,
@@ -37,9 +38,7 @@ GpuScene::GpuScene(const GlFunctions& gl, SceneGeometry geometry, const worlds::
     : gl_(&gl),
       geometry_(std::move(geometry)),
       light_(world.light),
-      shadow_(FrameShadow(world, geometry_.low, geometry_.high)),
-      grey_textures_(geometry_.materials.size(), 0),
-      colour_textures_(geometry_.materials.size(), 0) {
+      shadow_(FrameShadow(world, geometry_.low, geometry_.high)) {
   Upload();
   DrawShadowMap();
 }
@@ -106,7 +105,7 @@ void GpuScene::DrawShadowMap() {
   program.Use();
   program.Set("clip_from_world", shadow_.clip_from_world);
   program.SetAffine("world_from_model", base::Transform{});
-  Draw(AllRuns(geometry_.statics, true), 0);
+  Draw(AllRuns(geometry_.statics, true), TextureKind::kNone);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.Disable(GL_SCISSOR_TEST);
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -126,17 +125,15 @@ void GpuScene::Bind(const GlProgram& program) const {
               Eigen::Vector3f(light_.sun, light_.ambient, kShadowNormalOffset * static_cast<float>(shadow_.texel)));
 }
 
-GLuint GpuScene::TextureOf(int material, int channels) {
-  GLuint& texture = (channels == 1 ? grey_textures_ : colour_textures_)[static_cast<std::size_t>(material)];
-  if (texture == 0) {
-    texture = UploadTexture(*gl_, geometry_.materials[static_cast<std::size_t>(material)], channels);
-  }
+GLuint GpuScene::TextureOf(int material, TextureKind kind) {
+  GLuint& texture = textures_[{kind, material}];
+  if (texture == 0) texture = UploadTexture(*gl_, geometry_.materials[static_cast<std::size_t>(material)], kind);
   return texture;
 }
 
-void GpuScene::Draw(std::span<const DrawRun> runs, int channels) {
+void GpuScene::Draw(std::span<const DrawRun> runs, TextureKind kind) {
   for (const DrawRun& run : runs) {
-    if (channels > 0) gl_->BindTexture(GL_TEXTURE_2D, TextureOf(run.material, channels));
+    if (kind != TextureKind::kNone) gl_->BindTexture(GL_TEXTURE_2D, TextureOf(run.material, kind));
     gl_->MultiDrawElements(GL_TRIANGLES, run.counts.data(), GL_UNSIGNED_INT, run.offsets.data(),
                            static_cast<GLsizei>(run.counts.size()));
   }

@@ -1,12 +1,15 @@
 #pragma once
 
+#include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "render/internal/draw_list.h"
 #include "render/internal/gl_program.h"
 #include "render/internal/scene_geometry.h"
 #include "render/internal/shadow_frame.h"
+#include "render/internal/texture_levels.h"
 
 namespace alula::render::internal {
 
@@ -18,13 +21,13 @@ class GpuScene {
   const SceneGeometry& geometry() const { return geometry_; }
   /// Binds buffers and the shadow map and gives the program in use the light.
   void Bind(const GlProgram& program) const;
-  /// Draws the runs with the program in use; `channels` 1 or 3 chooses the textures, 0 binds none.
-  void Draw(std::span<const DrawRun> runs, int channels);
+  /// Draws the runs with the program in use and textures of the kind.
+  void Draw(std::span<const DrawRun> runs, TextureKind kind);
 
  private:
   void Upload();
   void DrawShadowMap();
-  GLuint TextureOf(int material, int channels);
+  GLuint TextureOf(int material, TextureKind kind);
 
   const GlFunctions* gl_;
   SceneGeometry geometry_;
@@ -32,8 +35,7 @@ class GpuScene {
   ShadowFrame shadow_;
   GLuint vertex_array_ = 0;
   GLuint shadow_map_ = 0;
-  std::vector<GLuint> grey_textures_;    // by material; 0 until first needed
-  std::vector<GLuint> colour_textures_;  // by material
+  std::map<std::pair<TextureKind, int>, GLuint> textures_;  // by kind and material, made when first needed
 };
 
 }  // namespace alula::render::internal

@@ -9,9 +9,11 @@ namespace alula::render::internal {
 
 inline constexpr double kNear = 0.05;  // m; nearer things are cut away
 inline constexpr double kFar = 200.0;  // m
+inline constexpr std::size_t kMostWorldLamps = 32;
+inline constexpr std::size_t kMostViewLamps = 8;
 
-/// Throws base::InputError unless the view has a size in [1, 8192]², positive focal lengths, no distortion and a
-/// brightness that is not negative.
+/// Throws base::InputError unless the view has a size in [1, 8192]², positive focal lengths, no distortion, a
+/// brightness that is not negative, and at most kMostViewLamps lamps that can be.
 void CheckView(const View& view);
 
 /// GL clip coordinates of a point of the world (homogeneous). The image spans [−½, width − ½] × [−½, height − ½];

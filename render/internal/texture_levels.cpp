@@ -20,7 +20,7 @@ void CheckTexture(const geometry::Material& material) {
   }
 }
 
-TextureLevel BaseLevel(const geometry::Material& material, int channels) {
+TextureLevel BaseLevel(const geometry::Material& material, TextureKind kind) {
   constexpr std::uint8_t kWhite[3] = {255, 255, 255};
   TextureLevel level{1, 1, {}};
   const std::uint8_t* texels = kWhite;
@@ -30,12 +30,14 @@ TextureLevel BaseLevel(const geometry::Material& material, int channels) {
     level.height = material.texture->height;
     texels = material.texture->rgb.data();
   }
+  const float factor = kind == TextureKind::kInfrared ? material.infrared : 1.0F;
+  const Eigen::Vector3f colour = factor * material.colour;
   const std::size_t count = static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height);
-  level.bytes.reserve(count * static_cast<std::size_t>(channels));
+  level.bytes.reserve(count * static_cast<std::size_t>(ChannelsOf(kind)));
   for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3f rgb =
-        material.colour.cwiseProduct(Eigen::Vector3f(texels[3 * i], texels[3 * i + 1], texels[3 * i + 2]));
-    if (channels == 1) {
+        colour.cwiseProduct(Eigen::Vector3f(texels[3 * i], texels[3 * i + 1], texels[3 * i + 2]));
+    if (kind != TextureKind::kColour) {
       level.bytes.push_back(ToByte(0.299F * rgb[0] + 0.587F * rgb[1] + 0.114F * rgb[2]));
     } else {
       for (int c = 0; c < 3; ++c) level.bytes.push_back(ToByte(rgb[c]));
@@ -69,9 +71,9 @@ TextureLevel Halve(const TextureLevel& above, int channels) {
 
 }  // namespace
 
-std::vector<TextureLevel> TextureLevels(const geometry::Material& material, int channels) {
-  std::vector<TextureLevel> levels{BaseLevel(material, channels)};
-  while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(Halve(levels.back(), channels));
+std::vector<TextureLevel> TextureLevels(const geometry::Material& material, TextureKind kind) {
+  std::vector<TextureLevel> levels{BaseLevel(material, kind)};
+  while (levels.back().width > 1 || levels.back().height > 1) levels.push_back(Halve(levels.back(), ChannelsOf(kind)));
   return levels;
 }
 

@@ -139,6 +139,29 @@ struct NormalPictureJob {
   float* out;         // [3] a pixel, rows from the top; 0 where nothing is seen
 };
 
+/// A lamp in world axes: render/internal/air_and_lamps.h says what the numbers are.
+struct Lamp {
+  float position[3];
+  float inverse_range_squared;
+  float direction[3];
+  float cone_cosine;
+  float light[3];
+  float cone_scale;
+};
+
+/// Grey or colour with lamps and fog, per pixel.
+struct LitJob {
+  ShadeJob shade;
+  NormalJob normals;
+  float eye[3];   // world axes, m
+  float rays[9];  // the ray with unit depth, world axes: at pixel (0, 0), by column, by row
+  const Lamp* lamps;
+  std::int32_t lamp_count;
+  float extinction;  // of the fog, 1/m; 0: none
+  float sky_depth;   // optical depth of the zenith
+  float fog[3];      // levels, by channel
+};
+
 /// The inner loops, one table for each instruction set. Both tables give the same bits.
 struct Kernels {
   const char* name;
@@ -151,6 +174,8 @@ struct Kernels {
   /// Depth in m of each pixel, 0 where nothing is nearer than 1/`farthest`.
   void (*metres)(const Target& target, float farthest, float* out);
   void (*normals)(const NormalPictureJob& job);
+  /// As `shade`, with lamps and fog.
+  void (*shade_lit)(const LitJob& job);
 };
 const Kernels& ScalarKernels();
 /// Null where this processor or this build does not have AVX2.

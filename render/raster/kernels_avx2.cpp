@@ -14,9 +14,10 @@ namespace {
 #include "render/raster/sampling.inc"
 #include "render/raster/shade.inc"
 #include "render/raster/normals.inc"
+#include "render/raster/lit.inc"
 // clang-format on
 
-constexpr Kernels kKernels{"avx2", Transform, Draw, DrawOne, Shade, Metres, Normals};
+constexpr Kernels kKernels{"avx2", Transform, Draw, DrawOne, Shade, Metres, Normals, ShadeLit};
 
 }  // namespace
 

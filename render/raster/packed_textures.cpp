@@ -1,6 +1,5 @@
 #include "render/raster/packed_textures.h"
 
-#include "render/internal/texture_levels.h"
 #include "render/raster/morton.h"
 
 namespace alula::render::raster {
@@ -46,10 +45,10 @@ void Append(PackedTextures& packed, const std::vector<TextureLevel>& levels, int
 
 }  // namespace
 
-PackedTextures PackTextures(std::span<const geometry::Material> materials, int channels) {
+PackedTextures PackTextures(std::span<const geometry::Material> materials, internal::TextureKind kind) {
   PackedTextures packed;
   for (const geometry::Material& material : materials) {
-    Append(packed, internal::TextureLevels(material, channels), channels);
+    Append(packed, internal::TextureLevels(material, kind), internal::ChannelsOf(kind));
   }
   return packed;
 }

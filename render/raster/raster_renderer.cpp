@@ -55,7 +55,9 @@ RasterRenderer::RasterRenderer(const Kernels& kernels, internal::SceneGeometry g
       scene_(std::move(geometry), LightingOf(world.light, shadow_frame_)),
       shadow_map_(DrawShadowMap(scene_, shadow_frame_, kernels)),
       classes_(internal::ClassesOf(world, movers)),
-      drawn_numbers_(scene_.triangles()) {}
+      drawn_numbers_(scene_.triangles()) {
+  internal::CheckLight(light_);
+}
 
 void RasterRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
   const std::size_t movers = scene_.parts().size() - scene_.statics();
@@ -65,9 +67,13 @@ void RasterRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
   for (std::size_t i = 0; i < X_WM.size(); ++i) scene_.PlaceMover(i, X_WM[i]);
 }
 
-const PackedTextures& RasterRenderer::Textures(int channels) {
-  std::optional<PackedTextures>& textures = channels == 1 ? grey_ : colour_;
-  if (!textures) textures = PackTextures(scene_.materials(), channels);
+const PackedTextures& RasterRenderer::Textures(int channels, bool infrared) {
+  using internal::TextureKind;
+  const TextureKind kind = channels == 3 ? TextureKind::kColour
+                           : infrared    ? TextureKind::kInfrared
+                                         : TextureKind::kLuma;
+  std::optional<PackedTextures>& textures = channels == 3 ? colour_ : infrared ? infrared_ : grey_;
+  if (!textures) textures = PackTextures(scene_.materials(), kind);
   return *textures;
 }
 
@@ -134,7 +140,7 @@ void RasterRenderer::DrawClipped(const Target& target, std::uint32_t number) {
 
 void RasterRenderer::Paint(const View& view, int channels, Picture& out) {
   internal::CheckView(view);
-  const PackedTextures& textures = Textures(channels);
+  const PackedTextures& textures = Textures(channels, view.infrared);
   out.width = view.intrinsics.width;
   out.height = view.intrinsics.height;
   out.channels = channels;
@@ -157,7 +163,39 @@ void RasterRenderer::Paint(const View& view, int channels, Picture& out) {
   job.brightness = view.brightness;
   job.out = out.bytes.data();
   SetSky(view, internal::SkyOf(light_, channels, view.brightness), job);
-  kernels_->shade(job);
+  const internal::AirAndLamps air = internal::AirAndLampsOf(light_, view, channels);
+  air.IsNeeded() ? ShadeLit(view, air, job) : kernels_->shade(job);
+}
+
+void RasterRenderer::ShadeLit(const View& view, const internal::AirAndLamps& air, const ShadeJob& shade) {
+  const stack::CameraIntrinsics& k = view.intrinsics;
+  LitJob job{};
+  job.shade = shade;
+  job.normals = NormalsFor(shade.target);
+  const base::Vec3 first = internal::RayDirection(view, 0.0, 0.0);
+  const base::Mat3 R_WC = view.X_WC.R();
+  for (int i = 0; i < 3; ++i) {
+    job.eye[i] = static_cast<float>(view.X_WC.p[i]);
+    job.rays[i] = static_cast<float>(first[i]);
+    job.rays[3 + i] = static_cast<float>(R_WC(i, 0) / k.fx);
+    job.rays[6 + i] = static_cast<float>(R_WC(i, 1) / k.fy);
+    job.fog[i] = 255.0F * air.fog[i];
+  }
+  lamps_.clear();
+  for (const internal::LampView& lamp : air.lamps) {
+    Lamp& out = lamps_.emplace_back();
+    std::copy_n(lamp.position.data(), 3, out.position);
+    std::copy_n(lamp.direction.data(), 3, out.direction);
+    std::copy_n(lamp.light.data(), 3, out.light);
+    out.inverse_range_squared = lamp.inverse_range_squared;
+    out.cone_cosine = lamp.cone_cosine;
+    out.cone_scale = lamp.cone_scale;
+  }
+  job.lamps = lamps_.data();
+  job.lamp_count = static_cast<std::int32_t>(lamps_.size());
+  job.extinction = air.extinction;
+  job.sky_depth = air.sky_depth;
+  kernels_->shade_lit(job);
 }
 
 void RasterRenderer::Depth(const View& view, DepthPicture& out) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/camera_renderer.h"
+#include "render/internal/air_and_lamps.h"
 #include "render/raster/clipper.h"
 #include "render/raster/packed_textures.h"
 #include "render/raster/raster_scene.h"
@@ -33,7 +34,8 @@ class RasterRenderer final : public CameraRenderer {
   /// The visibility buffer of a view; without ids for depth alone.
   Target DrawView(const View& view, bool with_ids);
   void DrawClipped(const Target& target, std::uint32_t triangle);
-  const PackedTextures& Textures(int channels);
+  const PackedTextures& Textures(int channels, bool infrared);
+  void ShadeLit(const View& view, const internal::AirAndLamps& air, const ShadeJob& shade);
   NormalJob NormalsFor(const Target& target);
 
   const Kernels* kernels_;
@@ -42,6 +44,7 @@ class RasterRenderer final : public CameraRenderer {
   RasterScene scene_;
   std::vector<std::uint32_t> shadow_map_;
   std::optional<PackedTextures> grey_;
+  std::optional<PackedTextures> infrared_;
   std::optional<PackedTextures> colour_;
   std::vector<worlds::SemanticClass> classes_;  // by instance
   std::uint32_t frame_ = 0;
@@ -50,6 +53,7 @@ class RasterRenderer final : public CameraRenderer {
   DrawnList drawn_{};
   std::vector<TrianglePlanes> planes_;
   std::vector<NormalPlanes> normal_planes_;
+  std::vector<Lamp> lamps_;
   VisibilityBuffer buffer_;
   std::vector<std::uint32_t> to_clip_;
   std::vector<Corner> polygon_;
