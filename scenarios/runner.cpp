@@ -72,7 +72,15 @@ sim::SimulationParts MakeParts(const Scenario& scenario, const RunOptions& optio
   parts.vehicle_id = kVehicle;
   parts.seed = scenario.seed;
   parts.workers = options.workers;
-  if (config.sensors.stereo) parts.renderer = render::MakeRenderer(options.render, *parts.world, {});
+  if (sim::HasCameras(config.sensors)) {
+    std::vector<render::Mover> movers;
+    if (sim::SeesVehicle(config.sensors)) {
+      for (const vehicles::Part& part : parts.vehicle->body().parts) {
+        movers.push_back({part.name, part.shape, part.material});
+      }
+    }
+    parts.renderer = render::MakeRenderer(options.render, *parts.world, movers);
+  }
   return parts;
 }
 

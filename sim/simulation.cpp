@@ -37,8 +37,8 @@ Simulation::Simulation(SimulationParts parts)
     : parts_(std::move(parts)),
       physics_(std::make_unique<PhysicsWorld>(*parts_.world, parts_.vehicle->body(), StartState(parts_),
                                               parts_.config.surface)),
-      sensors_(parts_.sensors, parts_.config.step, parts_.seed, parts_.vehicle_id, parts_.renderer.get(),
-               parts_.workers),
+      sensors_(parts_.sensors, parts_.vehicle->body(), parts_.config.step, parts_.seed, parts_.vehicle_id,
+               parts_.renderer.get(), parts_.workers),
       autopilot_imu_(parts_.autopilot_sensors.imu, parts_.config.step, parts_.seed,
                      parts_.vehicle_id + "/autopilot.imu"),
       autopilot_barometer_(parts_.autopilot_sensors.barometer, parts_.seed, parts_.vehicle_id + "/autopilot.barometer"),
@@ -83,12 +83,22 @@ void Simulation::StepStack() {
   for (const stack::Command& command : output_.commands) link_.push_back({due, command});
 }
 
-void Simulation::StepAutopilot() {
-  if (!parts_.autopilot) return;
+void Simulation::StepLink() {
   while (!link_.empty() && link_.front().due <= time_) {
-    std::visit([this](const auto& what) { parts_.autopilot->Receive(time_, what); }, link_.front().what);
+    const auto* command = std::get_if<stack::Command>(&link_.front().what);
+    const auto* turn = command != nullptr ? std::get_if<stack::GimbalSetpoint>(&command->what) : nullptr;
+    if (turn != nullptr) {
+      sensors_.Obey(*turn);
+    } else if (parts_.autopilot) {
+      std::visit([this](const auto& what) { parts_.autopilot->Receive(time_, what); }, link_.front().what);
+    }
     link_.pop_front();
   }
+}
+
+void Simulation::StepAutopilot() {
+  StepLink();
+  if (!parts_.autopilot) return;
   vehicles::AutopilotSensors sensors;
   sensors.imu = autopilot_imu_.Sample();
   const base::Rate rate = parts_.autopilot_sensors.barometer.rate;
@@ -117,7 +127,7 @@ void Simulation::StepBody() {
   Lap(kPhysics);
   const vehicles::BodyState& after = physics_->state();
   if (!IsFinite(after)) throw base::FaultError("numerical", "the vehicle's true state is not finite");
-  sensors_.Integrate(before, after);
+  sensors_.Integrate(time_ + dt, before, after);
   autopilot_imu_.Integrate(before, after);
   truth_ = {time_, time_ + dt, before, after};
   time_ += dt;
@@ -160,7 +170,7 @@ std::vector<stack::StageTime> Simulation::Timing() const {
   for (int i = 0; i < kStages; ++i) {
     stages.push_back({kNames[i], static_cast<double>(stage_ns_[i]) * 1e-6, steps_, 0.0});
   }
-  if (parts_.sensors.stereo) stages.push_back({"sensors/render", sensors_.render_ms(), 0, 0.0});
+  if (HasCameras(parts_.sensors)) stages.push_back({"sensors/render", sensors_.render_ms(), 0, 0.0});
   if (parts_.stack) {
     for (stack::StageTime stage : parts_.stack->Timing()) {
       stage.name = "stack/" + stage.name;

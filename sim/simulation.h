@@ -45,7 +45,7 @@ struct SimulationParts {
 ///
 ///   1. sensors whose sample time lies in (t − dt, t] measure the truth with their own random streams
 ///   2. stack.Step(t, measurements with available ≤ t)           → commands, estimate, events
-///   3. commands and estimate reach the autopilot once the link delay has passed
+///   3. commands and estimate reach the autopilot (or a gimbal) once the link delay has passed
 ///   4. autopilot.Step(t, its own sensors)                       → motor commands
 ///   5. vehicle.Step(state at t, wind)                           → force and torque
 ///   6. Bullet steps to t + dt (a prescribed vehicle is put where it is then); contacts are read
@@ -77,6 +77,7 @@ class Simulation {
   enum Stage { kSensors, kStack, kAutopilot, kVehicle, kPhysics, kObservers, kStages };
 
   void StepStack();
+  void StepLink();
   void StepAutopilot();
   void StepBody();
   std::optional<std::string> StepObservers();

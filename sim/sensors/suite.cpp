@@ -9,13 +9,14 @@ namespace alula::sim {
 namespace {
 
 constexpr stack::SensorId kImu{1}, kBarometer{2}, kPositionReference{3}, kBattery{4}, kStatus{5};
-constexpr std::array<stack::SensorId, 2> kEyes{stack::SensorId{10}, stack::SensorId{11}};
 
 }  // namespace
 
 void Describe(base::Description& d, SensorsConfig& c) {
   d.Field("imu", c.imu, {.meaning = "inertial measurement unit"});
   d.Field("stereo", c.stereo, {.meaning = "stereo camera"});
+  d.Field("cameras", c.cameras, {.meaning = "further cameras"});
+  d.Field("gimbals", c.gimbals, {.meaning = "mounts that cameras may sit on"});
   d.Field("barometer", c.barometer, {.meaning = "barometer"});
   d.Field("position_reference", c.position_reference, {.meaning = "external position sensor (motion capture)"});
   d.Field("battery_rate", c.battery_rate, {.unit = "Hz", .meaning = "rate of the battery's readings"});
@@ -51,23 +52,13 @@ stack::Calibration TrueCalibration(const SensorsConfig& config, const vehicles::
   if (config.position_reference) {
     calibration.position_reference = {.sensor = kPositionReference, .name = vehicle + "/position_reference"};
   }
-  if (config.stereo) {
-    for (int eye = 0; eye < 2; ++eye) {
-      calibration.cameras.push_back({.sensor = kEyes[eye],
-                                     .name = vehicle + (eye == 0 ? "/camera.left" : "/camera.right"),
-                                     .intrinsics = IntrinsicsOf(*config.stereo),
-                                     .X_BC = EyePose(*config.stereo, eye),
-                                     .rate = config.stereo->rate,
-                                     .time_offset = {}});
-    }
-    calibration.stereo = {0, 1};
-  }
+  AddCameras(config, vehicle, calibration);
   return calibration;
 }
 
-SensorSuite::SensorSuite(const SensorsConfig& config, base::Duration step, std::uint64_t seed,
-                         const std::string& vehicle, render::CameraRenderer* renderer, int workers)
-    : config_(config), battery_stream_(seed, vehicle + "/battery") {
+SensorSuite::SensorSuite(const SensorsConfig& config, const vehicles::VehicleBody& body, base::Duration step,
+                         std::uint64_t seed, const std::string& vehicle, render::CameraRenderer* renderer, int workers)
+    : config_(config), step_(step), battery_stream_(seed, vehicle + "/battery") {
   battery_clock_.rate = config.battery_rate;
   status_clock_.rate = config.status_rate;
   if (config.imu) {
@@ -82,10 +73,14 @@ SensorSuite::SensorSuite(const SensorsConfig& config, base::Duration step, std::
     position_reference_.emplace(*config.position_reference, seed, vehicle + "/position_reference");
     position_clock_.rate = config.position_reference->rate;
   }
-  if (config.stereo) {
-    if (renderer == nullptr) throw base::FaultError("no_renderer", "cameras need a renderer");
-    images_ = std::make_unique<ImageTaker>(*config.stereo, seed, vehicle, *renderer, workers >= 2);
-    image_clock_.rate = config.stereo->rate;
+  if (HasCameras(config) || !config.gimbals.empty()) {
+    if (HasCameras(config) && renderer == nullptr) throw base::FaultError("no_renderer", "cameras need a renderer");
+    std::vector<base::Transform> X_BP;
+    if (SeesVehicle(config)) {
+      for (const vehicles::Part& part : body.parts) X_BP.push_back(part.X_BP);
+    }
+    cameras_ = std::make_unique<CameraSuite>(config, TrueCalibration(config, body, vehicle), seed, std::move(X_BP),
+                                             std::vector<render::CameraRenderer*>{renderer}, workers >= 2);
   }
 }
 
@@ -93,36 +88,45 @@ SensorSuite::~SensorSuite() = default;
 
 void SensorSuite::Settle(const vehicles::BodyState& state) {
   if (imu_) imu_->Settle(state);
+  if (cameras_) cameras_->Settle({0}, state);
 }
 
-void SensorSuite::Integrate(const vehicles::BodyState& before, const vehicles::BodyState& after) {
+void SensorSuite::Obey(const stack::GimbalSetpoint& setpoint) {
+  if (!cameras_) throw base::FaultError("stack_command", "the stack turns a gimbal of a vehicle without any");
+  cameras_->Obey(setpoint);
+}
+
+void SensorSuite::Integrate(base::Time t, const vehicles::BodyState& before, const vehicles::BodyState& after) {
   if (imu_) imu_->Integrate(before, after);
+  if (cameras_) cameras_->Integrate(t, after, step_);
 }
 
-void SensorSuite::Push(stack::Measurement measurement) {
-  const auto later = [](const stack::Measurement& a, const stack::Measurement& b) { return ArrivesBefore(b, a); };
-  pending_.insert(std::upper_bound(pending_.begin(), pending_.end(), measurement, later), std::move(measurement));
+void SensorSuite::Push(stack::Measurement measurement, std::optional<CameraSuite::Frame> frame) {
+  const auto later = [](const stack::Measurement& a, const Pending& b) { return ArrivesBefore(b.measurement, a); };
+  const auto place = std::upper_bound(pending_.begin(), pending_.end(), measurement, later);
+  pending_.insert(place, {std::move(measurement), std::move(frame)});
 }
 
-void SensorSuite::MeasureImages(const TruthWindow& truth) {
-  while (image_clock_.Due(truth.end)) {
-    const auto seq = static_cast<std::uint32_t>(image_clock_.n);
-    const base::Time captured = image_clock_.Next();
-    images_->Request(seq, captured, truth.At(captured).X_WB);
-    for (int eye = 0; eye < 2; ++eye) {
-      Push({kEyes[eye], seq, captured, captured + config_.stereo->read_out, stack::Image{}});
-    }
-  }
-}
-
-void SensorSuite::Measure(const TruthWindow& truth, const OwnReports& reports) {
-  while (imu_ && imu_clock_.Due(truth.end)) {
+void SensorSuite::MeasureInertia(base::Time end) {
+  while (imu_ && imu_clock_.Due(end)) {
     const base::Time now = imu_clock_.Next();
     const base::Time captured{now.ns - imu_->delay().ns};
     const stack::ImuSample sample = imu_->Sample();
     if (captured.ns >= 0) Push({kImu, imu_seq_++, captured, now, sample});
   }
-  if (images_) MeasureImages(truth);
+}
+
+void SensorSuite::MeasureCameras(const TruthWindow& truth) {
+  for (CameraSuite::Frame& frame : cameras_->Measure(truth)) {
+    stack::Measurement measurement = frame.measurement;
+    Push(std::move(measurement), std::move(frame));
+  }
+  for (stack::Measurement& reading : cameras_->ReadGimbals(truth.end)) Push(std::move(reading));
+}
+
+void SensorSuite::Measure(const TruthWindow& truth, const OwnReports& reports) {
+  MeasureInertia(truth.end);
+  if (cameras_) MeasureCameras(truth);
   while (barometer_ && barometer_clock_.Due(truth.end)) {
     const auto seq = static_cast<std::uint32_t>(barometer_clock_.n);
     const base::Time now = barometer_clock_.Next();
@@ -150,18 +154,17 @@ void SensorSuite::Measure(const TruthWindow& truth, const OwnReports& reports) {
 
 void SensorSuite::Collect(base::Time now, std::vector<stack::Measurement>& out) {
   out.clear();
-  std::array<stack::Image, 2> pair;
-  while (!pending_.empty() && pending_.back().available <= now) {
-    stack::Measurement& measurement = pending_.back();
-    // Both eyes of a pair come together, the left one first.
-    if (measurement.sensor == kEyes[0]) pair = images_->Fetch();
-    if (measurement.sensor == kEyes[0]) measurement.data = std::move(pair[0]);
-    if (measurement.sensor == kEyes[1]) measurement.data = std::move(pair[1]);
-    out.push_back(std::move(measurement));
+  while (!pending_.empty() && pending_.back().measurement.available <= now) {
+    Pending& arrived = pending_.back();
+    if (arrived.frame) {
+      cameras_->Deliver(*arrived.frame);
+      arrived.measurement.data = std::move(arrived.frame->measurement.data);
+    }
+    out.push_back(std::move(arrived.measurement));
     pending_.pop_back();
   }
 }
 
-double SensorSuite::render_ms() const { return images_ ? images_->wall_ms() : 0.0; }
+double SensorSuite::render_ms() const { return cameras_ ? cameras_->wall_ms() : 0.0; }
 
 }  // namespace alula::sim

@@ -8,10 +8,9 @@
 
 #include "base/describe.h"
 #include "sim/sensors/barometer.h"
-#include "sim/sensors/image_taker.h"
+#include "sim/sensors/camera_suite.h"
 #include "sim/sensors/imu.h"
 #include "sim/sensors/position_reference.h"
-#include "sim/sensors/stereo_camera.h"
 #include "sim/truth.h"
 #include "stack/interface/calibration.h"
 #include "stack/interface/measurement.h"
@@ -19,9 +18,8 @@
 namespace alula::sim {
 
 /// The sensors whose readings reach the stack.
-struct SensorsConfig {
+struct SensorsConfig : CamerasConfig {
   std::optional<ImuConfig> imu = ImuConfig{};
-  std::optional<StereoCameraConfig> stereo;
   std::optional<BarometerConfig> barometer = BarometerConfig{};
   std::optional<PositionReferenceConfig> position_reference;
   base::Rate battery_rate{10, 1};
@@ -51,14 +49,17 @@ struct OwnReports {
 /// All sensors of one vehicle: takes samples when they are due and hands each over when it is available.
 class SensorSuite {
  public:
-  /// `renderer`: needed where there are cameras. `workers` ≥ 2: pictures are drawn on a thread of their own.
-  SensorSuite(const SensorsConfig& config, base::Duration step, std::uint64_t seed, const std::string& vehicle,
-              render::CameraRenderer* renderer, int workers);
+  /// `renderer`: needed where there are cameras; made with the vehicle's parts as movers where SeesVehicle. `workers` ≥
+  /// 2: pictures are drawn on threads of their own.
+  SensorSuite(const SensorsConfig& config, const vehicles::VehicleBody& body, base::Duration step, std::uint64_t seed,
+              const std::string& vehicle, render::CameraRenderer* renderer, int workers);
   ~SensorSuite();
 
   void Settle(const vehicles::BodyState& state);
-  /// Every physics step, for what is integrated inside.
-  void Integrate(const vehicles::BodyState& before, const vehicles::BodyState& after);
+  /// Turns a gimbal. Throws base::FaultError ("stack_command") for one that is not there.
+  void Obey(const stack::GimbalSetpoint& setpoint);
+  /// Every physics step (its end is `t`), for what is integrated inside.
+  void Integrate(base::Time t, const vehicles::BodyState& before, const vehicles::BodyState& after);
   /// Takes every sample that falls into the window (begin, end].
   void Measure(const TruthWindow& truth, const OwnReports& reports);
   /// Moves everything with available ≤ now to `out` (cleared first), in the order of stack::ArrivesBefore.
@@ -74,18 +75,25 @@ class SensorSuite {
     bool Due(base::Time now) const { return rate.SampleTime(n) <= now; }
     base::Time Next() { return rate.SampleTime(n++); }
   };
-  void Push(stack::Measurement measurement);
-  void MeasureImages(const TruthWindow& truth);
+  /// A measurement under way; a frame's picture is fetched when it arrives.
+  struct Pending {
+    stack::Measurement measurement;
+    std::optional<CameraSuite::Frame> frame;
+  };
+  void Push(stack::Measurement measurement, std::optional<CameraSuite::Frame> frame = std::nullopt);
+  void MeasureInertia(base::Time now);
+  void MeasureCameras(const TruthWindow& truth);
 
   SensorsConfig config_;
+  base::Duration step_;
   std::optional<Imu> imu_;
   std::optional<Barometer> barometer_;
   std::optional<PositionReference> position_reference_;
-  std::unique_ptr<ImageTaker> images_;
+  std::unique_ptr<CameraSuite> cameras_;
   base::RandomStream battery_stream_;
-  Clock imu_clock_, image_clock_, barometer_clock_, position_clock_, battery_clock_, status_clock_;
+  Clock imu_clock_, barometer_clock_, position_clock_, battery_clock_, status_clock_;
   std::uint32_t imu_seq_ = 0;
-  std::vector<stack::Measurement> pending_;  // the last one arrives first
+  std::vector<Pending> pending_;  // the last one arrives first
 };
 
 }  // namespace alula::sim

@@ -3,13 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <vector>
 
 #include "base/random.h"
 #include "render/camera_renderer.h"
 #include "sim/physics_world.h"
-#include "sim/sensors/image_taker.h"
+#include "sim/sensors/optics.h"
 #include "sim/sensors/suite.h"
 #include "tests/sim/test_world.h"
 #include "vehicles/prescribed.h"
@@ -61,27 +63,151 @@ TEST(Cameras, RenderedDepthIsWhereBulletsRaysEnd) {
   EXPECT_LT(different, compared / 50);
 }
 
+using Motion = std::function<vehicles::BodyState(base::Time)>;
+
+vehicles::BodyState AlongX(base::Time t) { return testing::At({2.0 * t.Seconds(), 0, 1}); }
+
+/// What a suite measures over 130 ms.
+std::vector<stack::Measurement> Record(const SensorsConfig& config, render::CameraRenderer& renderer, int workers,
+                                       const Motion& motion = AlongX) {
+  SensorSuite suite(config, testing::PlateOnLegs(), base::Milliseconds(1), 9, "vehicle0", &renderer, workers);
+  std::vector<stack::Measurement> all, measurements;
+  TruthWindow window{{0}, {0}, motion({0}), motion({0})};
+  suite.Settle(window.at_end);
+  for (int i = 0; i < 130; ++i) {
+    suite.Measure(window, {});
+    suite.Collect(window.end, measurements);
+    all.insert(all.end(), measurements.begin(), measurements.end());
+    const base::Time next = window.end + base::Milliseconds(1);
+    window = {window.end, next, window.at_end, motion(next)};
+    suite.Integrate(next, window.at_begin, window.at_end);
+  }
+  return all;
+}
+
+/// All pictures of one sensor, one after another; of all sensors without an id.
+std::vector<std::uint8_t> BytesOf(const std::vector<stack::Measurement>& measurements,
+                                  std::optional<stack::SensorId> sensor = std::nullopt) {
+  std::vector<std::uint8_t> bytes;
+  for (const stack::Measurement& m : measurements) {
+    const auto* image = std::get_if<stack::Image>(&m.data);
+    if (image == nullptr || (sensor && m.sensor != *sensor)) continue;
+    bytes.insert(bytes.end(), image->bytes->begin(), image->bytes->end());
+  }
+  return bytes;
+}
+
+SensorsConfig SmallStereo() {
+  SensorsConfig config;
+  config.stereo = StereoCameraConfig{};
+  config.stereo->width = 160;
+  config.stereo->height = 120;
+  return config;
+}
+
 TEST(Cameras, ThreadChangesNoByte) {
   const worlds::World world = testing::GroundAndCrate();
-  StereoCameraConfig camera;
+  SensorsConfig config = SmallStereo();
+  config.stereo->motion_blur = true;
+  config.stereo->auto_exposure = AutoExposureConfig{};
+  const auto renderer = render::MakeRenderer("auto", world, {});
+  const std::vector<std::uint8_t> here = BytesOf(Record(config, *renderer, 1));
+  EXPECT_EQ(here.size(), 6U * 160 * 120);
+  EXPECT_EQ(here, BytesOf(Record(config, *renderer, 2)));
+}
+
+/// A right eye that is 5 ms late sees what it would see if the whole flight were 5 ms ahead; every second frame only
+/// where every second one is late.
+TEST(Cameras, LateEyeSeesWhatComesLater) {
+  const worlds::World world = testing::GroundAndCrate();
+  const auto renderer = render::MakeRenderer("raster", world, {});
+  const Motion sideways = [](base::Time t) { return testing::At({0, 10.0 * t.Seconds() - 0.5, 1}); };
+  const Motion ahead = [&](base::Time t) { return sideways(t + base::Milliseconds(5)); };
+  SensorsConfig config = SmallStereo();
+  const stack::SensorId left{10}, right{11};
+  const auto prompt = Record(config, *renderer, 1, sideways), shifted = Record(config, *renderer, 1, ahead);
+  config.stereo->eye_offset = base::Milliseconds(5);
+  const auto late = Record(config, *renderer, 1, sideways);
+  EXPECT_EQ(BytesOf(late, left), BytesOf(prompt, left));
+  EXPECT_EQ(BytesOf(late, right), BytesOf(shifted, right));
+  EXPECT_TRUE(BytesOf(late, right) != BytesOf(prompt, right));
+  config.stereo->eye_offset_every = 2;
+  const auto now_and_then = BytesOf(Record(config, *renderer, 1, sideways), right);
+  const auto always = BytesOf(late, right), never = BytesOf(prompt, right);
+  const std::ptrdiff_t frame = 160 * 120;
+  EXPECT_TRUE(std::equal(always.begin(), always.begin() + frame, now_and_then.begin()));
+  EXPECT_TRUE(std::equal(never.begin() + frame, never.begin() + 2 * frame, now_and_then.begin() + frame));
+}
+
+/// A camera on a gimbal that looks straight down sees what one that is screwed on looking down sees.
+TEST(Cameras, GimbalTurnsTheCamera) {
+  const worlds::World world = testing::GroundAndCrate();
+  const auto renderer = render::MakeRenderer("raster", world, {});
+  NamedCameraConfig camera;
+  camera.name = "down";
   camera.width = 160;
   camera.height = 120;
-  const auto renderer = render::MakeRenderer("auto", world, {});
-  const auto shoot = [&](bool own_thread) {
-    ImageTaker taker(camera, 9, "vehicle0", *renderer, own_thread);
-    for (std::uint32_t seq = 0; seq < 3; ++seq) {
-      taker.Request(seq, {seq * 50'000'000}, {base::Quat::Identity(), {0.1 * seq, 0, 1}});
-    }
-    std::vector<std::uint8_t> bytes;
-    for (int i = 0; i < 3; ++i) {
-      for (const stack::Image& image : taker.Fetch())
-        bytes.insert(bytes.end(), image.bytes->begin(), image.bytes->end());
-    }
-    return bytes;
-  };
-  const std::vector<std::uint8_t> here = shoot(false);
-  EXPECT_EQ(here.size(), 6U * 160 * 120);
-  EXPECT_EQ(here, shoot(true));
+  camera.position = {0.03, 0, 0};
+  camera.pitch = 1.0;
+  SensorsConfig fixed;
+  fixed.cameras = {camera};
+  fixed.cameras[0].position = base::FromYawPitchRoll(0, 0.5, 0) * camera.position + Vec3(0.1, 0, -0.05);
+  fixed.cameras[0].pitch = 1.5;
+  SensorsConfig turned;
+  turned.cameras = {camera};
+  turned.cameras[0].gimbal = "belly";
+  turned.gimbals.resize(1);
+  turned.gimbals[0].name = "belly";
+  turned.gimbals[0].position = {0.1, 0, -0.05};
+  turned.gimbals[0].start = {0, 0.5, 0};
+  const auto a = BytesOf(Record(fixed, *renderer, 1)), b = BytesOf(Record(turned, *renderer, 1));
+  ASSERT_EQ(a.size(), b.size());
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) different += std::abs(a[i] - b[i]) > 1;
+  EXPECT_LT(different, a.size() / 1000);  // the two poses are equal but for rounding
+}
+
+TEST(Cameras, SeesTheVehicleWhereItIsToldTo) {
+  const worlds::World world = testing::GroundAndCrate();
+  std::vector<render::Mover> movers;
+  for (const vehicles::Part& part : testing::PlateOnLegs().parts)
+    movers.push_back({part.name, part.shape, part.material});
+  const auto renderer = render::MakeRenderer("raster", world, movers);
+  SensorsConfig config;
+  config.cameras.resize(1);
+  config.cameras[0].name = "down";
+  config.cameras[0].kind = stack::CameraKind::kColour;
+  config.cameras[0].pitch = 1.57;
+  config.cameras[0].position = {0, 0, -0.03};  // under the plate, between the legs
+  config.cameras[0].fov = 2.4;
+  const auto blind = BytesOf(Record(config, *renderer, 1));
+  EXPECT_EQ(blind.size(), 3U * 640 * 480 * 3);
+  config.cameras[0].sees_vehicle = true;
+  const auto seeing = BytesOf(Record(config, *renderer, 1));
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < blind.size(); ++i) different += blind[i] != seeing[i];
+  EXPECT_GT(different, blind.size() / 500);  // four thin legs
+}
+
+/// What is lost does not come, what is stuck shows the frame before, what is late comes late.
+TEST(Cameras, FramesAreLostStuckAndLate) {
+  const worlds::World world = testing::GroundAndCrate();
+  const auto renderer = render::MakeRenderer("raster", world, {});
+  SensorsConfig config = SmallStereo();
+  config.stereo->faults.drop = 1.0;
+  EXPECT_TRUE(BytesOf(Record(config, *renderer, 1)).empty());
+  config.stereo->faults = {.drop = 0, .late = 1.0, .late_by = base::Milliseconds(30), .freeze = 0, .freeze_frames = 1};
+  for (const stack::Measurement& m : Record(config, *renderer, 1)) {
+    if (!std::holds_alternative<stack::Image>(m.data)) continue;
+    EXPECT_GT(m.available, m.captured + config.stereo->read_out);
+    EXPECT_LE(m.available, m.captured + config.stereo->read_out + base::Milliseconds(30));
+  }
+  config.stereo->faults = {.drop = 0, .late = 0, .late_by = {}, .freeze = 1.0, .freeze_frames = 3};
+  const auto stuck = BytesOf(Record(config, *renderer, 1), stack::SensorId{10});
+  const std::ptrdiff_t frame = 160 * 120;
+  ASSERT_EQ(static_cast<std::ptrdiff_t>(stuck.size()), 3 * frame);
+  EXPECT_TRUE(std::equal(stuck.begin(), stuck.begin() + frame, stuck.begin() + frame));
+  EXPECT_TRUE(std::equal(stuck.begin(), stuck.begin() + frame, stuck.begin() + 2 * frame));
 }
 
 /// A dark ball before a bright sky, high above the ground: its centroid is a landmark to about a
@@ -157,7 +283,7 @@ TEST(Cameras, OpticalFlowAgreesWithGyroAndVelocity) {
   sensors.stereo->noise = {0.0, 0.0};
   const stack::Calibration truth = TrueCalibration(sensors, vehicle->body(), "vehicle0");
   const auto renderer = render::MakeRenderer("auto", world, {});
-  SensorSuite suite(sensors, base::Milliseconds(1), 1, "vehicle0", renderer.get(), 1);
+  SensorSuite suite(sensors, vehicle->body(), base::Milliseconds(1), 1, "vehicle0", renderer.get(), 1);
 
   std::vector<std::pair<base::Time, Vec3>> gyro;
   std::vector<std::pair<base::Time, std::optional<base::Vec2>>> seen;
@@ -175,7 +301,7 @@ TEST(Cameras, OpticalFlowAgreesWithGyroAndVelocity) {
     }
     const base::Time next = window.end + base::Milliseconds(1);
     window = {window.end, next, window.at_end, vehicle->Prescribed(next)};
-    suite.Integrate(window.at_begin, window.at_end);
+    suite.Integrate(next, window.at_begin, window.at_end);
   }
 
   const stack::CameraIntrinsics& k = truth.cameras[0].intrinsics;
@@ -210,6 +336,60 @@ TEST(Cameras, OpticalFlowAgreesWithGyroAndVelocity) {
   EXPECT_LT(largest, 0.4);    // px, two centroids' errors
   EXPECT_LT(std::sqrt(squares / compared), 0.2);
 }
+
+/// Mean of |a − b|, grey levels.
+double MeanDifference(const stack::Image& a, const stack::Image& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.bytes->size(); ++i) sum += std::abs((*a.bytes)[i] - (*b.bytes)[i]);
+  return sum / static_cast<double>(a.bytes->size());
+}
+
+/// A flight past the things of the courtyard that turns and shakes: 2 m/s, 1.5 rad/s, and 40 Hz of ±0.4°.
+Instant ShakingFlight(base::Time t) {
+  const double s = t.Seconds();
+  const base::Quat q = base::FromYawPitchRoll(1.5 * s, 0.007 * std::sin(2 * M_PI * 40 * s), 0.4 * s);
+  const base::Transform X_WB{q, {-6 + 2 * s, -5, 1.5}};
+  return {X_WB * MountPose(CameraConfig{}), X_WB};
+}
+
+class Shutter : public ::testing::TestWithParam<bool> {};  // with rolling rows, or without
+
+/// The instants and bands that PlanExposure takes give the picture that 64 instants a band, and a band a row or two,
+/// give. The bound is what rounding a mean to grey levels leaves (0.25 of a level in the mean), doubled.
+TEST_P(Shutter, ShowsWhatSixtyFourSubFramesShow) {
+  const worlds::World world = worlds::MakeCourtyard({}, 3);
+  const auto renderer = render::MakeRenderer("raster", world, {});
+  CameraConfig config;
+  config.noise = {0.0, 0.0};
+  config.motion_blur = true;
+  config.exposure = base::Milliseconds(6);
+  if (GetParam()) {
+    config.width = 320;
+    config.height = 240;
+    config.row_delay = base::Microseconds(60);
+  }
+  const Optics optics{config, IntrinsicsOf(config), "camera", 1, {}};
+  const auto plan = [&](base::Time t, double step) {
+    return PlanExposure(config, optics.intrinsics.fx, {config.exposure, 1.0}, t, ShakingFlight, step);
+  };
+  for (const double at : {0.5, 1.7}) {
+    const Exposure used = plan(base::Time{} + base::Seconds(at), 0.75);
+    const Exposure finest = plan(base::Time{} + base::Seconds(at), 1e-3);
+    EXPECT_EQ(finest.slices[0].instants.size(), 64U);
+    EXPECT_LT(used.slices[0].instants.size(), 20U);
+    const stack::Image a = TakeImage(optics, used, *renderer);
+    const stack::Image b = TakeImage(optics, finest, *renderer);
+    const Exposure::Slice sharp{0, config.height, {ShakingFlight(used.captured)}};
+    const stack::Image c = TakeImage(optics, {0, used.captured, used.setting, {sharp}}, *renderer);
+    std::printf("%zu bands of %zu instants: mean difference %.3f levels; without blur and rolling %.3f\n",
+                used.slices.size(), used.slices[0].instants.size(), MeanDifference(a, b), MeanDifference(c, b));
+    EXPECT_LT(MeanDifference(a, b), 0.5);
+    EXPECT_GT(MeanDifference(c, b), 1.0);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, Shutter, ::testing::Bool(),
+                         [](const auto& kind) { return kind.param ? "Rolling" : "Global"; });
 
 }  // namespace
 }  // namespace alula::sim
