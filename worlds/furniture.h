@@ -33,6 +33,9 @@ std::size_t AddObject(World& world, std::string name, geometry::Shape shape, con
 /// `random`. Parts are named "<name>/<part>".
 void AddTree(World& world, const Looks& looks, const std::string& name, const Footprint& at,
              base::RandomStream& random);
+/// A tree whose crown is of cards that show sprays of leaves (a material with holes) from both sides.
+void AddLeafyTree(World& world, int bark, int leaves, const std::string& name, const Footprint& at,
+                  base::RandomStream& random);
 void AddConifer(World& world, const Looks& looks, const std::string& name, const Footprint& at,
                 base::RandomStream& random);
 void AddCrates(World& world, const Looks& looks, const std::string& name, const Footprint& at, int stacked,

@@ -59,6 +59,7 @@ void AddExtras(base::RollingHash& hash, const World& world) {
     Add(hash, lamp);
   }
   for (const geometry::Material& material : world.materials) {
+    if (geometry::HasHoles(material)) hash.AddBytes(material.texture->alpha);
     if (material.infrared == 1.0F) continue;
     hash.Add(std::string_view("infrared"));
     hash.Add(std::string_view(material.name));

@@ -36,8 +36,6 @@ GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& 
   description_ = Describe(*context_);
   scene_ = std::make_unique<GpuScene>(gl, BuildScene(world, movers), world);
   targets_ = std::make_unique<RenderTargets>(gl);
-  depth_ = std::make_unique<GlProgram>(gl, kPositionVertex, kDepthFragment);
-  normal_ = std::make_unique<GlProgram>(gl, kNormalVertex, kNormalFragment);
   sky_ = std::make_unique<GlProgram>(gl, kSkyVertex, kSkyFragment);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.ClearColor(0.0F, 0.0F, 0.0F, 0.0F);
@@ -93,7 +91,7 @@ void GlRenderer::Depth(const View& view, DepthPicture& out) {
   CheckView(view);
   const CurrentContext current(*context_);
   Begin(view, PixelKind::kMetres);
-  DrawSurfaces(view, *depth_, TextureKind::kNone);
+  DrawSurfaces(view, ProgramsOf(Pass::kDepth), TextureKind::kNone);
   out.width = view.intrinsics.width;
   out.height = view.intrinsics.height;
   out.metres.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
@@ -124,51 +122,65 @@ void GlRenderer::Begin(const View& view, PixelKind kind) {
   context_->gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-const GlProgram& GlRenderer::SurfaceProgram(int channels, bool lit) {
-  std::unique_ptr<GlProgram>& program = surfaces_[(channels == 1 ? 0U : 1U) + (lit ? 2U : 0U)];
-  if (!program) {
-    std::string defines = "#define MOST_LAMPS " + std::to_string(kMostLamps) + "\n";
-    if (channels == 3) defines += "#define COLOUR\n";
-    if (lit) defines += "#define LIT\n";
-    program = std::make_unique<GlProgram>(context_->gl(), kSurfaceVertex, kSurfaceFragment, defines);
-  }
+const GlProgram& GlRenderer::Program(Pass pass, bool lit, bool holes) {
+  std::unique_ptr<GlProgram>& program =
+      programs_[4 * static_cast<std::size_t>(pass) + (lit ? 2U : 0U) + (holes ? 1U : 0U)];
+  if (program) return *program;
+  std::string defines = "#define MOST_LAMPS " + std::to_string(kMostLamps) + "\n";
+  if (pass == Pass::kColour) defines += "#define COLOUR\n";
+  if (lit) defines += "#define LIT\n";
+  if (holes) defines += kHoles;
+  const bool paints = pass == Pass::kGrey || pass == Pass::kColour;
+  const char* vertex = paints ? kSurfaceVertex : pass == Pass::kDepth ? kPositionVertex : kNormalVertex;
+  const char* fragment = paints ? kSurfaceFragment : pass == Pass::kDepth ? kDepthFragment : kNormalFragment;
+  program = std::make_unique<GlProgram>(context_->gl(), vertex, fragment, defines);
   return *program;
+}
+
+GlRenderer::Programs GlRenderer::ProgramsOf(Pass pass, bool lit) {
+  return {&Program(pass, lit, false), scene_->HasHoles() ? &Program(pass, lit, true) : nullptr};
 }
 
 void GlRenderer::Paint(const View& view, int channels) {
   const AirAndLamps air = AirAndLampsOf(light_, view, channels);
-  const GlProgram& program = SurfaceProgram(channels, air.IsNeeded());
-  if (air.IsNeeded()) {
-    program.Use();
-    program.Set("eye", view.X_WC.p.cast<float>().eval());
-    program.Set("lamp_count", static_cast<int>(air.lamps.size()));
+  const Programs programs = ProgramsOf(channels == 1 ? Pass::kGrey : Pass::kColour, air.IsNeeded());
+  for (const GlProgram* program : programs) {
+    if (program == nullptr || !air.IsNeeded()) continue;
+    program->Use();
+    program->Set("eye", view.X_WC.p.cast<float>().eval());
+    program->Set("lamp_count", static_cast<int>(air.lamps.size()));
     static_assert(sizeof(LampView) == 12 * sizeof(float));
     const std::span lamps(reinterpret_cast<const float*>(air.lamps.data()), 12 * air.lamps.size());
-    if (!lamps.empty()) program.Set("lamps", lamps);
-    program.Set("fog", air.fog);
-    program.Set("extinction", air.extinction);
+    if (!lamps.empty()) program->Set("lamps", lamps);
+    program->Set("fog", air.fog);
+    program->Set("extinction", air.extinction);
   }
-  DrawSurfaces(view, program, TextureKindOf(view, channels));
+  DrawSurfaces(view, programs, TextureKindOf(view, channels));
   DrawSky(view, channels, air);
 }
 
-void GlRenderer::DrawSurfaces(const View& view, const GlProgram& program, TextureKind kind) {
+void GlRenderer::DrawSurfaces(const View& view, const Programs& programs, TextureKind kind) {
   const Eigen::Matrix4d clip_from_world = ClipFromWorld(view);
-  program.Use();
-  scene_->Bind(program);
-  program.Set("clip_from_world", clip_from_world);
-  program.Set("brightness", view.brightness);
-  if (view.draw_movers) DrawMovers(view, program, kind);
-  program.SetAffine("world_from_model", base::Transform{});
-  const std::vector<Batch>& statics = scene_->geometry().statics;
   const Frustum frustum = FrustumOf(clip_from_world);
-  scene_->Draw(NearestFirst(statics, options_.cull ? &frustum : nullptr, view.X_WC.p, kind == TextureKind::kNone),
-               kind);
+  const std::vector<DrawRun> runs = NearestFirst(scene_->geometry().statics, options_.cull ? &frustum : nullptr,
+                                                 view.X_WC.p, kind == TextureKind::kNone);
+  for (const bool holes : {false, true}) {
+    const GlProgram* program = programs[holes ? 1 : 0];
+    if (program == nullptr) continue;
+    program->Use();
+    scene_->Bind(*program);
+    program->Set("clip_from_world", clip_from_world);
+    program->Set("brightness", view.brightness);
+    if (view.draw_movers) DrawMovers(view, *program, kind, holes);
+    program->SetAffine("world_from_model", base::Transform{});
+    scene_->Draw(Those(runs, holes), kind);
+  }
 }
 
-void GlRenderer::DrawMovers(const View& view, const GlProgram& program, TextureKind kind) {
+void GlRenderer::DrawMovers(const View& view, const GlProgram& program, TextureKind kind, bool holes) {
   const std::vector<Batch>& movers = scene_->geometry().movers;
   for (std::size_t i = 0; i < movers.size(); ++i) {
+    if (movers[i].holes != holes) continue;
     // Planes in the mover's own frame, where its box is: columns of the clip matrix times X_WM.
     Eigen::Matrix4d world_from_mover = Eigen::Matrix4d::Identity();
     world_from_mover.topLeftCorner<3, 3>() = X_WM_[i].R();
@@ -183,22 +195,29 @@ void GlRenderer::DrawMovers(const View& view, const GlProgram& program, TextureK
 /// One call a batch: each has its own number.
 void GlRenderer::DrawInstances(const View& view) {
   const Eigen::Matrix4d clip_from_world = ClipFromWorld(view);
-  normal_->Use();
-  scene_->Bind(*normal_);
-  normal_->Set("clip_from_world", clip_from_world);
-  normal_->Set("camera_from_world", view.X_WC.Inverse().R());
+  const Programs programs = ProgramsOf(Pass::kNormal);
   const std::vector<Batch>& statics = scene_->geometry().statics;
   const std::vector<Batch>& movers = scene_->geometry().movers;
-  for (std::size_t i = 0; view.draw_movers && i < movers.size(); ++i) {
-    normal_->SetAffine("world_from_model", X_WM_[i]);
-    normal_->Set("instance", static_cast<float>(statics.size() + i + 1));
-    scene_->Draw(AllRuns(std::span(&movers[i], 1), true), TextureKind::kNone);
-  }
-  normal_->SetAffine("world_from_model", base::Transform{});
+  const auto draw = [&](const GlProgram& program, const Batch& batch, std::size_t instance, const base::Transform& X) {
+    program.SetAffine("world_from_model", X);
+    program.Set("instance", static_cast<float>(instance));
+    scene_->Draw(AllRuns(std::span(&batch, 1), true), TextureKind::kNone);
+  };
   const Frustum frustum = FrustumOf(clip_from_world);
-  for (const std::uint32_t i : VisibleOrder(statics, options_.cull ? &frustum : nullptr, view.X_WC.p)) {
-    normal_->Set("instance", static_cast<float>(i + 1));
-    scene_->Draw(AllRuns(std::span(&statics[i], 1), true), TextureKind::kNone);
+  const std::vector<std::uint32_t> order = VisibleOrder(statics, options_.cull ? &frustum : nullptr, view.X_WC.p);
+  for (const bool holes : {false, true}) {
+    const GlProgram* program = programs[holes ? 1 : 0];
+    if (program == nullptr) continue;
+    program->Use();
+    scene_->Bind(*program);
+    program->Set("clip_from_world", clip_from_world);
+    program->Set("camera_from_world", view.X_WC.Inverse().R());
+    for (std::size_t i = 0; view.draw_movers && i < movers.size(); ++i) {
+      if (movers[i].holes == holes) draw(*program, movers[i], statics.size() + i + 1, X_WM_[i]);
+    }
+    for (const std::uint32_t i : order) {
+      if (statics[i].holes == holes) draw(*program, statics[i], i + 1, {});
+    }
   }
 }
 

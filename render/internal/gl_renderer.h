@@ -34,12 +34,16 @@ class GlRenderer final : public CameraRenderer {
  private:
   /// Grey or colour into the bound framebuffer.
   void Paint(const View& view, int channels);
-  void DrawSurfaces(const View& view, const GlProgram& program, TextureKind kind);
-  void DrawMovers(const View& view, const GlProgram& program, TextureKind kind);
+  /// What has no holes with the one program, what has some with the other.
+  using Programs = std::array<const GlProgram*, 2>;
+  void DrawSurfaces(const View& view, const Programs& programs, TextureKind kind);
+  void DrawMovers(const View& view, const GlProgram& program, TextureKind kind, bool holes);
   void DrawInstances(const View& view);
   void DrawSky(const View& view, int channels, const AirAndLamps& air);
-  /// The surface program of grey or colour, with lamps and fog or without: made when first needed.
-  const GlProgram& SurfaceProgram(int channels, bool lit);
+  /// A program of a pass, made when first needed.
+  enum class Pass { kGrey, kColour, kDepth, kNormal };
+  const GlProgram& Program(Pass pass, bool lit, bool holes);
+  Programs ProgramsOf(Pass pass, bool lit = false);
   void Begin(const View& view, PixelKind kind);
   void CheckErrors() const;
 
@@ -54,8 +58,8 @@ class GlRenderer final : public CameraRenderer {
   // Made once the context is current.
   std::unique_ptr<GpuScene> scene_;
   std::unique_ptr<RenderTargets> targets_;
-  std::unique_ptr<GlProgram> depth_, normal_, sky_, foggy_sky_;
-  std::array<std::unique_ptr<GlProgram>, 4> surfaces_;  // grey, colour; the same with lamps and fog
+  std::unique_ptr<GlProgram> sky_, foggy_sky_;
+  std::array<std::unique_ptr<GlProgram>, 16> programs_;  // by pass, lit, holes
 };
 
 }  // namespace alula::render::internal

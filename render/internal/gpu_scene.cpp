@@ -12,13 +12,11 @@ namespace {
 
 using Vertex = geometry::Mesh::Vertex;
 
-GLuint UploadTexture(const GlFunctions& gl, const geometry::Material& material, TextureKind kind) {
+GLuint UploadLevels(const GlFunctions& gl, const std::vector<TextureLevel>& levels, int channels) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
   gl.BindTexture(GL_TEXTURE_2D, texture);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  const std::vector<TextureLevel> levels = TextureLevels(material, kind);
-  const int channels = ChannelsOf(kind);
   GLint number = 0;
   for (const TextureLevel& level : levels) {
     gl.TexImage2D(GL_TEXTURE_2D, number++, channels == 1 ? GL_R8 : GL_RGBA8, level.width, level.height, 0,
@@ -39,6 +37,9 @@ GpuScene::GpuScene(const GlFunctions& gl, SceneGeometry geometry, const worlds::
       geometry_(std::move(geometry)),
       light_(world.light),
       shadow_(FrameShadow(world, geometry_.low, geometry_.high)) {
+  for (const std::vector<Batch>* batches : {&geometry_.statics, &geometry_.movers}) {
+    for (const Batch& batch : *batches) has_holes_ = has_holes_ || batch.holes;
+  }
   Upload();
   DrawShadowMap();
 }
@@ -101,11 +102,15 @@ void GpuScene::DrawShadowMap() {
   gl.Disable(GL_CULL_FACE);
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5F, 4.0F);
-  const GlProgram program(gl, kPositionVertex, kShadowFragment);
-  program.Use();
-  program.Set("clip_from_world", shadow_.clip_from_world);
-  program.SetAffine("world_from_model", base::Transform{});
-  Draw(AllRuns(geometry_.statics, true), TextureKind::kNone);
+  for (const bool holes : {false, true}) {
+    if (holes && !has_holes_) break;
+    const GlProgram program(gl, kPositionVertex, kShadowFragment, holes ? kHoles : "");
+    program.Use();
+    program.Set("clip_from_world", shadow_.clip_from_world);
+    program.SetAffine("world_from_model", base::Transform{});
+    program.Set("alpha", 2);
+    Draw(Those(AllRuns(geometry_.statics, true), holes), TextureKind::kNone);
+  }
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.Disable(GL_SCISSOR_TEST);
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -119,6 +124,7 @@ void GpuScene::Bind(const GlProgram& program) const {
   gl_->ActiveTexture(GL_TEXTURE0);
   program.Set("albedo", 0);
   program.Set("shadow_map", 1);
+  program.Set("alpha", 2);
   program.SetAffine("shadow_from_world", shadow_.texture_from_world);
   program.Set("to_sun", light_.to_sun_W.normalized().cast<float>().eval());
   program.Set("light",
@@ -127,12 +133,28 @@ void GpuScene::Bind(const GlProgram& program) const {
 
 GLuint GpuScene::TextureOf(int material, TextureKind kind) {
   GLuint& texture = textures_[{kind, material}];
-  if (texture == 0) texture = UploadTexture(*gl_, geometry_.materials[static_cast<std::size_t>(material)], kind);
+  if (texture == 0) {
+    const geometry::Material& m = geometry_.materials[static_cast<std::size_t>(material)];
+    texture = UploadLevels(*gl_, TextureLevels(m, kind), ChannelsOf(kind));
+  }
+  return texture;
+}
+
+GLuint GpuScene::AlphaOf(int material) {
+  GLuint& texture = alphas_[material];
+  if (texture == 0) {
+    texture = UploadLevels(*gl_, AlphaLevels(geometry_.materials[static_cast<std::size_t>(material)]), 1);
+  }
   return texture;
 }
 
 void GpuScene::Draw(std::span<const DrawRun> runs, TextureKind kind) {
   for (const DrawRun& run : runs) {
+    if (run.holes) {
+      gl_->ActiveTexture(GL_TEXTURE2);
+      gl_->BindTexture(GL_TEXTURE_2D, AlphaOf(run.material));
+      gl_->ActiveTexture(GL_TEXTURE0);
+    }
     if (kind != TextureKind::kNone) gl_->BindTexture(GL_TEXTURE_2D, TextureOf(run.material, kind));
     gl_->MultiDrawElements(GL_TRIANGLES, run.counts.data(), GL_UNSIGNED_INT, run.offsets.data(),
                            static_cast<GLsizei>(run.counts.size()));

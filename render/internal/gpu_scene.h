@@ -21,20 +21,25 @@ class GpuScene {
   const SceneGeometry& geometry() const { return geometry_; }
   /// Binds buffers and the shadow map and gives the program in use the light.
   void Bind(const GlProgram& program) const;
-  /// Draws the runs with the program in use and textures of the kind.
+  /// Whether anything has holes.
+  bool HasHoles() const { return has_holes_; }
+  /// Draws the runs with the program in use and textures of the kind (and the holes of those that have some).
   void Draw(std::span<const DrawRun> runs, TextureKind kind);
 
  private:
   void Upload();
   void DrawShadowMap();
   GLuint TextureOf(int material, TextureKind kind);
+  GLuint AlphaOf(int material);
 
   const GlFunctions* gl_;
   SceneGeometry geometry_;
   worlds::Light light_;
   ShadowFrame shadow_;
+  bool has_holes_ = false;
   GLuint vertex_array_ = 0;
   GLuint shadow_map_ = 0;
+  std::map<int, GLuint> alphas_;                            // of materials with holes
   std::map<std::pair<TextureKind, int>, GLuint> textures_;  // by kind and material, made when first needed
 };
 

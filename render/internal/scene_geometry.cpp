@@ -39,7 +39,8 @@ SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> move
                                            std::to_string(world.materials.size()));
     }
     const geometry::Mesh mesh = geometry::Tessellate(object.shape, object.texture_scale);
-    const Batch batch = Append(scene, mesh, object.X_WO, object.material);
+    Batch batch = Append(scene, mesh, object.X_WO, object.material);
+    batch.holes = geometry::HasHoles(world.materials[static_cast<std::size_t>(object.material)]);
     scene.low = scene.statics.empty() ? batch.low : scene.low.cwiseMin(batch.low).eval();
     scene.high = scene.statics.empty() ? batch.high : scene.high.cwiseMax(batch.high).eval();
     scene.statics.push_back(batch);
@@ -48,6 +49,7 @@ SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> move
     const int material = static_cast<int>(scene.materials.size());
     scene.materials.push_back(mover.material);
     scene.movers.push_back(Append(scene, geometry::Tessellate(mover.shape), base::Transform{}, material));
+    scene.movers.back().holes = geometry::HasHoles(mover.material);
   }
   return scene;
 }

@@ -11,6 +11,7 @@ namespace alula::render::internal {
 /// A run of triangles of one material, and the axis-aligned box that holds them.
 struct Batch {
   int material = 0;
+  bool holes = false;  // its texture has some
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;
   Eigen::Vector3f low = Eigen::Vector3f::Zero();

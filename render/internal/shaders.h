@@ -4,7 +4,9 @@ namespace alula::render::internal {
 
 // GLSL of the passes. Light of sun and sky per vertex: flat faces and the round ones' fine tessellation make the
 // difference to light per pixel invisible, and llvmpipe pays per pixel. With LIT defined, lamps and fog come on top,
-// per pixel. COLOUR: three channels instead of one.
+// per pixel. COLOUR: three channels instead of one. HOLES: what the texture's alpha says is not there is left out.
+
+inline constexpr const char* kHoles = "#define HOLES\n";
 
 /// World and movers: position, texture coordinates, light and place in the shadow map.
 inline constexpr const char* kSurfaceVertex = R"(#version 330 core
@@ -52,6 +54,9 @@ in vec3 shadow_at;
 uniform sampler2D albedo;
 uniform sampler2DShadow shadow_map;
 const float kSharper = -0.5;  // levels; isotropic mip-maps blur ground that is seen at a low angle
+#ifdef HOLES
+uniform sampler2D alpha;
+#endif
 #ifdef COLOUR
 layout(location = 0) out vec4 value;
 #else
@@ -93,6 +98,9 @@ vec3 ThroughFog(vec3 seen) {
 }
 #endif
 void main() {
+#ifdef HOLES
+  if (texture(alpha, uv, kSharper).r < 0.5) discard;
+#endif
 #ifdef LIT
   float light = mix(shade.x, shade.y, texture(shadow_map, shadow_at));
   vec3 seen = ThroughFog(texture(albedo, uv, kSharper).TEXEL * sqrt(light * light + Lamplight()));
@@ -114,12 +122,30 @@ inline constexpr const char* kPositionVertex = R"(#version 330 core
 layout(location = 0) in vec3 position;
 uniform mat4 clip_from_world;
 uniform mat4x3 world_from_model;
-void main() { gl_Position = clip_from_world * vec4(world_from_model * vec4(position, 1.0), 1.0); }
+#ifdef HOLES
+layout(location = 2) in vec2 uv_in;
+out vec2 uv;
+#endif
+void main() {
+  gl_Position = clip_from_world * vec4(world_from_model * vec4(position, 1.0), 1.0);
+#ifdef HOLES
+  uv = uv_in;
+#endif
+}
 )";
 /// Depth along the optical axis is the clip coordinate w.
 inline constexpr const char* kDepthFragment = R"(#version 330 core
 layout(location = 0) out float metres;
-void main() { metres = 1.0 / gl_FragCoord.w; }
+#ifdef HOLES
+in vec2 uv;
+uniform sampler2D alpha;
+#endif
+void main() {
+#ifdef HOLES
+  if (texture(alpha, uv, -0.5).r < 0.5) discard;
+#endif
+  metres = 1.0 / gl_FragCoord.w;
+}
 )";
 
 /// Normal in camera axes, and which instance it is of.
@@ -130,7 +156,14 @@ uniform mat4 clip_from_world;
 uniform mat4x3 world_from_model;
 uniform mat3 camera_from_world;
 out vec3 normal;
+#ifdef HOLES
+layout(location = 2) in vec2 uv_in;
+out vec2 uv;
+#endif
 void main() {
+#ifdef HOLES
+  uv = uv_in;
+#endif
   normal = camera_from_world * (mat3(world_from_model) * normal_in);
   gl_Position = clip_from_world * vec4(world_from_model * vec4(position, 1.0), 1.0);
 }
@@ -139,11 +172,28 @@ inline constexpr const char* kNormalFragment = R"(#version 330 core
 in vec3 normal;
 uniform float instance;
 layout(location = 0) out vec4 value;
-void main() { value = vec4(normalize(normal), instance); }
+#ifdef HOLES
+in vec2 uv;
+uniform sampler2D alpha;
+#endif
+void main() {
+#ifdef HOLES
+  if (texture(alpha, uv, -0.5).r < 0.5) discard;
+#endif
+  value = vec4(normalize(normal), instance);
+}
 )";
 
 inline constexpr const char* kShadowFragment = R"(#version 330 core
-void main() {}
+#ifdef HOLES
+in vec2 uv;
+uniform sampler2D alpha;
+#endif
+void main() {
+#ifdef HOLES
+  if (texture(alpha, uv, -0.5).r < 0.5) discard;
+#endif
+}
 )";
 
 /// One triangle that covers the picture at the far end of the depth range.

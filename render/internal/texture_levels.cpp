@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <functional>
 
 #include "base/error.h"
 
@@ -69,7 +70,38 @@ TextureLevel Halve(const TextureLevel& above, int channels) {
   return level;
 }
 
+bool IsThere(std::uint8_t alpha) { return static_cast<float>(alpha) >= kAlphaThere; }
+
+/// Scales the level so that `share` of its texels are there.
+TextureLevel WithCoverage(TextureLevel level, double share) {
+  std::vector<std::uint8_t> sorted = level.bytes;
+  std::sort(sorted.begin(), sorted.end(), std::greater<>());
+  const auto count = static_cast<double>(sorted.size());
+  const auto wanted = static_cast<std::size_t>(std::clamp(std::round(share * count), 1.0, count));
+  const auto threshold = static_cast<float>(std::max<std::uint8_t>(sorted[wanted - 1], 1));
+  // One more than half, so that the texel at the threshold itself is there after rounding.
+  for (std::uint8_t& alpha : level.bytes) alpha = ToByte(static_cast<float>(alpha) * (128.0F / threshold));
+  return level;
+}
+
 }  // namespace
+
+std::vector<TextureLevel> AlphaLevels(const geometry::Material& material) {
+  CheckTexture(material);
+  const geometry::Texture& texture = *material.texture;
+  if (3 * texture.alpha.size() != texture.rgb.size()) {
+    throw base::FaultError("render", "alpha of material \"" + material.name + "\" does not fit its texture");
+  }
+  TextureLevel plain{texture.width, texture.height, texture.alpha};
+  const auto there = static_cast<double>(std::count_if(plain.bytes.begin(), plain.bytes.end(), IsThere));
+  const double share = there / static_cast<double>(plain.bytes.size());
+  std::vector<TextureLevel> levels{plain};
+  while (plain.width > 1 || plain.height > 1) {
+    plain = Halve(plain, 1);
+    levels.push_back(share > 0.0 ? WithCoverage(plain, share) : plain);
+  }
+  return levels;
+}
 
 std::vector<TextureLevel> TextureLevels(const geometry::Material& material, TextureKind kind) {
   std::vector<TextureLevel> levels{BaseLevel(material, kind)};

@@ -23,4 +23,10 @@ constexpr int ChannelsOf(TextureKind kind) { return kind == TextureKind::kColour
 /// BT.601). Throws base::FaultError for a texture whose sides are no powers of two or whose bytes do not fit its sides.
 std::vector<TextureLevel> TextureLevels(const geometry::Material& material, TextureKind kind);
 
+/// The mip chain of a texture with holes: averages of 2×2 texels, each level scaled so that the share of its texels
+/// which are there (at or above kAlphaThere) stays that of the first, and at least one is: far leaves do not vanish
+/// (Castaño 2010). Throws base::FaultError where the bytes do not fit the sides.
+std::vector<TextureLevel> AlphaLevels(const geometry::Material& material);
+inline constexpr float kAlphaThere = 127.5F;
+
 }  // namespace alula::render::internal

@@ -77,6 +77,18 @@ struct TextureView {
   std::int32_t last_level;  // level l has k = last_level − l
 };
 
+/// Holes of a triangle: 1, u, v (texels of level 0) over depth as planes over the picture, about (reference_x,
+/// reference_y), and the alpha that they look up.
+struct HolePlanes {
+  float at[3];
+  float by_x[3];
+  float by_y[3];
+  float reference_x;  // px
+  float reference_y;
+  TextureView texture;
+  const std::uint32_t* words;
+};
+
 /// Attributes (texture coordinates in texels of level 0) over depth as planes over the picture, relative to a pixel
 /// that the triangle covers.
 struct alignas(64) TrianglePlanes {
@@ -170,6 +182,8 @@ struct Kernels {
   /// Returns the number of triangles in `to_clip`.
   std::uint32_t (*draw)(const DrawJob& job);
   void (*draw_one)(const Target& target, const ScreenTriangle& triangle);
+  /// As `draw_one`, but for the pixels where alpha is below half.
+  void (*draw_with_holes)(const Target& target, const ScreenTriangle& triangle, const HolePlanes& holes);
   void (*shade)(const ShadeJob& job);
   /// Depth in m of each pixel, 0 where nothing is nearer than 1/`farthest`.
   void (*metres)(const Target& target, float farthest, float* out);

@@ -53,4 +53,16 @@ PackedTextures PackTextures(std::span<const geometry::Material> materials, inter
   return packed;
 }
 
+PackedTextures PackAlpha(std::span<const geometry::Material> materials) {
+  PackedTextures packed;
+  for (const geometry::Material& material : materials) {
+    if (geometry::HasHoles(material)) {
+      Append(packed, internal::AlphaLevels(material), 1);
+    } else {
+      packed.views.push_back({});
+    }
+  }
+  return packed;
+}
+
 }  // namespace alula::render::raster

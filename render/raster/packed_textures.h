@@ -20,4 +20,7 @@ struct PackedTextures {
 /// Throws base::FaultError as TextureLevels does.
 PackedTextures PackTextures(std::span<const geometry::Material> materials, internal::TextureKind kind);
 
+/// Alpha of the materials that have holes; the others' views are empty.
+PackedTextures PackAlpha(std::span<const geometry::Material> materials);
+
 }  // namespace alula::render::raster

@@ -7,6 +7,7 @@
 #include "render/internal/sky.h"
 #include "render/internal/surface_classes.h"
 #include "render/internal/visible_order.h"
+#include "render/raster/holes.h"
 #include "render/raster/occlusion.h"
 #include "render/raster/shadow_map.h"
 
@@ -53,7 +54,8 @@ RasterRenderer::RasterRenderer(const Kernels& kernels, internal::SceneGeometry g
       light_(world.light),
       shadow_frame_(internal::FrameShadow(world, geometry.low, geometry.high)),
       scene_(std::move(geometry), LightingOf(world.light, shadow_frame_)),
-      shadow_map_(DrawShadowMap(scene_, shadow_frame_, kernels)),
+      alpha_(PackAlpha(scene_.materials())),
+      shadow_map_(DrawShadowMap(scene_, shadow_frame_, alpha_, kernels)),
       classes_(internal::ClassesOf(world, movers)),
       drawn_numbers_(scene_.triangles()) {
   internal::CheckLight(light_);
@@ -90,6 +92,10 @@ Target RasterRenderer::DrawView(const View& view, bool with_ids) {
     const RasterScene::Part& part = scene_.parts()[number];
     kernels_->transform(scene_.vertices(), part.first_vertex, part.vertices, m.data(),
                         static_cast<float>(internal::kNear));
+    if (part.holes) {
+      for (std::uint32_t i = 0; i < part.triangles; ++i) DrawSingly(target, part.first_triangle + i, true);
+      continue;
+    }
     to_clip_.resize(std::max<std::size_t>(to_clip_.size(), part.triangles));
     const DrawJob job{{scene_.corners(0), scene_.corners(1), scene_.corners(2)},
                       part.first_triangle,
@@ -99,12 +105,12 @@ Target RasterRenderer::DrawView(const View& view, bool with_ids) {
                       &drawn_,
                       to_clip_.data()};
     const std::uint32_t count = kernels_->draw(job);
-    for (std::uint32_t i = 0; i < count; ++i) DrawClipped(target, to_clip_[i]);
+    for (std::uint32_t i = 0; i < count; ++i) DrawSingly(target, to_clip_[i], false);
   }
   return target;
 }
 
-void RasterRenderer::DrawClipped(const Target& target, std::uint32_t number) {
+void RasterRenderer::DrawSingly(const Target& target, std::uint32_t number, bool has_holes) {
   const Vertices& v = scene_.vertices();
   std::array<Corner, 3> corners;
   std::array<base::Vec3, 3> p;
@@ -116,7 +122,11 @@ void RasterRenderer::DrawClipped(const Target& target, std::uint32_t number) {
   const base::Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
   const double volume = normal.dot(p[0]);
   if (!(volume < 0.0)) return;  // seen from behind
-  ClipTriangle(corners, internal::kNear, polygon_);
+  if (corners[0].snapped && corners[1].snapped && corners[2].snapped) {
+    polygon_.assign(corners.begin(), corners.end());
+  } else {
+    ClipTriangle(corners, internal::kNear, polygon_);
+  }
   if (polygon_.size() < 3) return;
   const auto by_depth = [](const Corner& a, const Corner& b) { return a.depth < b.depth; };
   const auto [nearest, farthest] = std::minmax_element(polygon_.begin(), polygon_.end(), by_depth);
@@ -128,13 +138,16 @@ void RasterRenderer::DrawClipped(const Target& target, std::uint32_t number) {
   triangle.high = static_cast<float>(1.0 / nearest->depth);
   drawn_.numbers[drawn_.count++] = number;
   triangle.id = drawn_.count;
+  const base::Vec2 about(std::clamp(polygon_[0].x >> kSubPixelBits, 0, target.width),
+                         std::clamp(polygon_[0].y >> kSubPixelBits, 0, target.height));
+  const HolePlanes holes = has_holes ? HolesOf(scene_, alpha_, number, p, about) : HolePlanes{};
   for (std::size_t i = 2; i < polygon_.size(); ++i) {
     const Corner* fan[3] = {&polygon_[0], &polygon_[i], &polygon_[i - 1]};  // front faces turn the other way
     for (int k = 0; k < 3; ++k) {
       triangle.x[k] = fan[k]->x;
       triangle.y[k] = fan[k]->y;
     }
-    kernels_->draw_one(target, triangle);
+    has_holes ? kernels_->draw_with_holes(target, triangle, holes) : kernels_->draw_one(target, triangle);
   }
 }
 

@@ -33,7 +33,8 @@ class RasterRenderer final : public CameraRenderer {
   void Paint(const View& view, int channels, Picture& out);
   /// The visibility buffer of a view; without ids for depth alone.
   Target DrawView(const View& view, bool with_ids);
-  void DrawClipped(const Target& target, std::uint32_t triangle);
+  /// Triangles that must be clipped, and those with holes.
+  void DrawSingly(const Target& target, std::uint32_t triangle, bool has_holes);
   const PackedTextures& Textures(int channels, bool infrared);
   void ShadeLit(const View& view, const internal::AirAndLamps& air, const ShadeJob& shade);
   NormalJob NormalsFor(const Target& target);
@@ -42,6 +43,7 @@ class RasterRenderer final : public CameraRenderer {
   worlds::Light light_;
   internal::ShadowFrame shadow_frame_;
   RasterScene scene_;
+  PackedTextures alpha_;
   std::vector<std::uint32_t> shadow_map_;
   std::optional<PackedTextures> grey_;
   std::optional<PackedTextures> infrared_;

@@ -10,6 +10,7 @@ RasterScene::Part PartOf(const internal::SceneGeometry& scene, const internal::B
   RasterScene::Part part;
   part.first_triangle = batch.first_index / 3;
   part.triangles = batch.index_count / 3;
+  part.holes = batch.holes;
   if (part.triangles == 0) return part;
   const auto first = scene.indices.begin() + static_cast<std::ptrdiff_t>(batch.first_index);
   const auto [low, high] = std::minmax_element(first, first + static_cast<std::ptrdiff_t>(batch.index_count));

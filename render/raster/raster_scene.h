@@ -32,6 +32,7 @@ class RasterScene {
     std::uint32_t triangles = 0;
     std::uint32_t first_vertex = 0;
     std::uint32_t vertices = 0;
+    bool holes = false;
   };
 
   void PlaceMover(std::size_t number, const base::Transform& X_WM);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/raster/clipper.h"
+#include "render/raster/holes.h"
 #include "render/raster/morton.h"
 #include "render/raster/visibility_buffer.h"
 
@@ -33,7 +34,7 @@ bool NearnessPlane(const std::array<base::Vec3, 3>& p, ScreenTriangle& triangle)
 
 /// Fan of a convex polygon, whichever way it turns.
 void DrawPolygon(const Kernels& kernels, const Target& target, const std::vector<Corner>& polygon,
-                 ScreenTriangle& triangle) {
+                 const HolePlanes* holes, ScreenTriangle& triangle) {
   for (std::size_t i = 2; i < polygon.size(); ++i) {
     const std::array<Corner, 3> c = {polygon[0], polygon[i - 1], polygon[i]};
     const std::int64_t area =
@@ -44,7 +45,7 @@ void DrawPolygon(const Kernels& kernels, const Target& target, const std::vector
       triangle.x[k] = corner.x;
       triangle.y[k] = corner.y;
     }
-    kernels.draw_one(target, triangle);
+    holes != nullptr ? kernels.draw_with_holes(target, triangle, *holes) : kernels.draw_one(target, triangle);
   }
 }
 
@@ -60,7 +61,7 @@ std::uint32_t TexelAt(const Target& target, int x, int y) {
 }  // namespace
 
 std::vector<std::uint32_t> DrawShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame,
-                                         const Kernels& kernels) {
+                                         const PackedTextures& alpha, const Kernels& kernels) {
   VisibilityBuffer buffer;
   const Target target = buffer.Clear(kShadowSide, kShadowSide, 0.0F, false);
   const Vertices& v = scene.vertices();
@@ -82,7 +83,13 @@ std::vector<std::uint32_t> DrawShadowMap(const RasterScene& scene, const interna
       ScreenTriangle triangle{};
       if (!NearnessPlane(p, triangle)) continue;
       ClipTriangle(corners, 0.5, polygon);
-      DrawPolygon(kernels, target, polygon, triangle);
+      HolePlanes holes;
+      if (part.holes) {
+        std::array<base::Vec3, 3> flat;
+        for (std::size_t i = 0; i < 3; ++i) flat[i] = {p[i].x(), p[i].y(), 1.0};
+        holes = HolesOf(scene, alpha, t, flat, p[0].head<2>().array().round().max(0.0).min(kShadowSide));
+      }
+      DrawPolygon(kernels, target, polygon, part.holes ? &holes : nullptr, triangle);
     }
   }
   std::vector<std::uint32_t> map(static_cast<std::size_t>(kShadowSide) * kShadowSide);

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "render/internal/shadow_frame.h"
+#include "render/raster/packed_textures.h"
 #include "render/raster/raster_scene.h"
 
 namespace alula::render::raster {
@@ -11,6 +12,6 @@ namespace alula::render::raster {
 /// kShadowSide² words in Morton order, texel (x, y) in the low half and (x, y + 1) in the high half. Pushed away from
 /// the sun by 1.5 times its slope a texel against self-shadowing. The outermost texels stay empty. Both faces cast.
 std::vector<std::uint32_t> DrawShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame,
-                                         const Kernels& kernels);
+                                         const PackedTextures& alpha, const Kernels& kernels);
 
 }  // namespace alula::render::raster

@@ -182,6 +182,8 @@ TEST_P(Light, WhatCannotBeIsBadInput) {
   EXPECT_THROW(renderer->Grey(view, picture), base::InputError);
 }
 
+const worlds::CourtyardConfig kSmall{.texture_size = 128};
+
 worlds::World Night(worlds::World world) {
   world.light.sun = 0.0F;
   world.light.ambient = 0.01F;
@@ -208,8 +210,8 @@ std::vector<test::Shot> TorchShots(std::uint64_t seed) {
 }
 
 TEST(LightOverMakers, NightAndFogAgree) {
-  test::ExpectAgreement(Night(worlds::MakeCourtyard({}, 5)), {}, TorchShots(3), 0.5);
-  test::ExpectAgreement(InFog(worlds::MakeCourtyard({}, 6)), {}, test::ShotsAbout(4, 3, {9, 7, 3}), 0.5);
+  test::ExpectAgreement(Night(worlds::MakeCourtyard(kSmall, 5)), {}, TorchShots(3), 0.5);
+  test::ExpectAgreement(InFog(worlds::MakeCourtyard(kSmall, 6)), {}, test::ShotsAbout(4, 3, {9, 7, 3}), 0.5);
   test::ExpectAgreement(InFog(Night(test::Clutter(8, 100))), {}, TorchShots(5), 0.5);
 }
 
