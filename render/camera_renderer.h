@@ -30,7 +30,7 @@ struct View {
   float brightness = 1.0F;  // exposure times gain over the nominal one: a factor on the signal of grey and colour
                             // pictures before it is rounded to eight bits and cut off at 255
   bool infrared = false;    // grey pictures by the materials' albedo in the near infrared
-  std::vector<worlds::Lamp> lamps;  // that ride with the camera (at most 8), in camera axes
+  std::vector<worlds::Lamp> lamps{};  // that ride with the camera (at most 8), in camera axes
 };
 
 /// A camera's picture before its sensor: grey values or RGB in [0, 255], rows from the top.

@@ -46,8 +46,8 @@ struct Light {
   float ambient = 0.35F;
   Eigen::Vector3f sky{0.62F, 0.74F, 0.90F};  // colour of the sky
   float sky_brightness = 1.0F;               // factor on the sky as displayed: near 0 at night
-  std::optional<Fog> fog;
-  std::vector<Lamp> lamps;  // that stand in the world
+  std::optional<Fog> fog{};
+  std::vector<Lamp> lamps{};  // that stand in the world
 };
 
 /// What a world is: data from which Bullet, the renderer and the criteria are built. Nothing here moves.
