@@ -125,6 +125,44 @@ void Describe(base::Description& d, StereoCameraConfig& c) {
   d.Check("read_out", [&c] { return WrongTimes(c, c.eye_offset); });
 }
 
+RgbdCameraConfig::RgbdCameraConfig() {
+  kind = stack::CameraKind::kColour;
+  rate = {30, 1};
+  fov = 1.0471975511965976;  // 60 deg
+}
+
+void Describe(base::Description& d, DepthCameraConfig& c) {
+  d.Field("width", c.width, {.unit = "1", .meaning = "pixels a row", .min = 16, .max = 4096});
+  d.Field("height", c.height, {.unit = "1", .meaning = "rows", .min = 16, .max = 4096});
+  d.Field("fov", c.fov, {.unit = "rad", .meaning = "field of view across the middle row", .min = 0.05, .max = 2.8});
+  d.Field("offset", c.offset, {.unit = "m", .meaning = "along the colour camera's x axis", .min = -1, .max = 1});
+  d.Field("registered", c.registered, {.meaning = "carried over to the colour camera's pixels"});
+  d.Field("read_out", c.read_out,
+          {.unit = "s", .meaning = "from the middle of the exposure to the stack", .min = 0, .max = 10});
+  d.Field("light", c.light, {.meaning = "how depth is measured"});
+}
+
+void Describe(base::Description& d, RgbdCameraConfig& c) {
+  Describe(d, static_cast<NamedCameraConfig&>(c));
+  d.Field("depth", c.depth, {.meaning = "the depth camera beside it"});
+  d.Check("depth", [&c] {
+    return c.depth.registered && !stack::IsPinhole(IntrinsicsOf(c))
+               ? std::string("can be registered to a colour camera without lens distortion only; say registered: false")
+               : std::string();
+  });
+}
+
+stack::CameraIntrinsics DepthIntrinsicsOf(const DepthCameraConfig& config) {
+  const double focal = 0.5 * config.width / std::tan(0.5 * config.fov);
+  return {.width = config.width,
+          .height = config.height,
+          .fx = focal,
+          .fy = focal,
+          .cx = 0.5 * (config.width - 1),
+          .cy = 0.5 * (config.height - 1),
+          .distortion = {}};
+}
+
 stack::CameraIntrinsics IntrinsicsOf(const CameraConfig& config) {
   stack::CameraIntrinsics k{.width = config.width,
                             .height = config.height,

@@ -8,6 +8,7 @@
 #include "base/frames.h"
 #include "base/time.h"
 #include "render/sensor_effects.h"
+#include "render/structured_light.h"
 #include "stack/interface/calibration.h"
 
 namespace alula::sim {
@@ -79,6 +80,28 @@ struct StereoCameraConfig : CameraConfig {
   int eye_offset_every = 1;     // … in every n-th frame
 };
 void Describe(base::Description& d, StereoCameraConfig& c);
+
+/// A colour camera with a structured-light depth camera beside it, which looks the same way and takes its depth in the
+/// middle of the colour camera's exposure.
+struct DepthCameraConfig {
+  int width = 640;
+  int height = 480;
+  double fov = 1.0122909661567112;  // across the width, rad (58 deg)
+  double offset = -0.025;           // along the colour camera's x axis, m
+  bool registered = true;           // carried over to the colour camera's pixels
+  base::Duration read_out = base::Milliseconds(30);
+  render::StructuredLight light;
+};
+void Describe(base::Description& d, DepthCameraConfig& c);
+
+struct RgbdCameraConfig : NamedCameraConfig {
+  RgbdCameraConfig();
+  DepthCameraConfig depth;
+};
+void Describe(base::Description& d, RgbdCameraConfig& c);
+
+/// Of the depth camera itself, whatever it is registered to.
+stack::CameraIntrinsics DepthIntrinsicsOf(const DepthCameraConfig& config);
 
 /// Square pixels, centre of the image. `fov` is what the bent lens really sees across the middle row.
 stack::CameraIntrinsics IntrinsicsOf(const CameraConfig& config);

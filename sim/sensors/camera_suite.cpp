@@ -12,7 +12,7 @@
 namespace alula::sim {
 namespace {
 
-constexpr std::uint16_t kFirstEye = 10, kFirstCamera = 100, kFirstGimbal = 300;
+constexpr std::uint16_t kFirstEye = 10, kFirstCamera = 100, kFirstRgbd = 200, kFirstGimbal = 300;
 
 std::optional<int> GimbalNumber(const CamerasConfig& config, const CameraConfig& camera) {
   if (camera.gimbal.empty()) return std::nullopt;
@@ -51,6 +51,29 @@ void CheckNames(const stack::Calibration& calibration) {
   for (const stack::GimbalCalibration& gimbal : calibration.gimbals) check(gimbal.name);
 }
 
+base::Transform DepthPoseInColour(const DepthCameraConfig& config) {
+  return {base::Quat::Identity(), {config.offset, 0.0, 0.0}};
+}
+
+/// The pair's calibrations: colour, then depth as the stack gets it (registered or not).
+void AddRgbd(const CamerasConfig& config, const RgbdCameraConfig& camera, std::uint16_t first_id,
+             const std::string& vehicle, stack::Calibration& calibration) {
+  const std::string name = vehicle + "/camera." + camera.name;
+  stack::CameraCalibration colour =
+      Calibrate(config, camera, MountPose(camera), stack::SensorId(first_id), name + ".colour");
+  stack::CameraCalibration depth = colour;
+  depth.sensor = stack::SensorId(static_cast<std::uint16_t>(first_id + 1));
+  depth.name = name + ".depth";
+  depth.kind = stack::CameraKind::kDepth;
+  depth.row_delay = {};
+  if (!camera.depth.registered) {
+    depth.intrinsics = DepthIntrinsicsOf(camera.depth);
+    depth.X_BC = colour.X_BC * DepthPoseInColour(camera.depth);
+  }
+  calibration.cameras.push_back(std::move(colour));
+  calibration.cameras.push_back(std::move(depth));
+}
+
 /// Share of full scale.
 double MeanOf(const stack::Image& image) {
   const std::uint64_t sum = std::accumulate(image.bytes->begin(), image.bytes->end(), std::uint64_t{0});
@@ -62,10 +85,13 @@ double MeanOf(const stack::Image& image) {
 bool SeesVehicle(const CamerasConfig& config) {
   const auto sees = [](const CameraConfig& camera) { return camera.sees_vehicle; };
   return (config.stereo && config.stereo->sees_vehicle) ||
-         std::any_of(config.cameras.begin(), config.cameras.end(), sees);
+         std::any_of(config.cameras.begin(), config.cameras.end(), sees) ||
+         std::any_of(config.rgbd.begin(), config.rgbd.end(), sees);
 }
 
-bool HasCameras(const CamerasConfig& config) { return config.stereo || !config.cameras.empty(); }
+bool HasCameras(const CamerasConfig& config) {
+  return config.stereo || !config.cameras.empty() || !config.rgbd.empty();
+}
 
 void AddCameras(const CamerasConfig& config, const std::string& vehicle, stack::Calibration& calibration) {
   if (config.stereo) {
@@ -81,6 +107,9 @@ void AddCameras(const CamerasConfig& config, const std::string& vehicle, stack::
     calibration.cameras.push_back(Calibrate(config, camera, MountPose(camera),
                                             stack::SensorId(static_cast<std::uint16_t>(kFirstCamera + i)),
                                             vehicle + "/camera." + camera.name));
+  }
+  for (std::size_t i = 0; i < config.rgbd.size(); ++i) {
+    AddRgbd(config, config.rgbd[i], static_cast<std::uint16_t>(kFirstRgbd + 2 * i), vehicle, calibration);
   }
   for (std::size_t i = 0; i < config.gimbals.size(); ++i) {
     calibration.gimbals.push_back({stack::SensorId(static_cast<std::uint16_t>(kFirstGimbal + i)),
@@ -98,8 +127,9 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
   std::size_t number = 0;
   if (config.stereo) {
     exposures_.emplace_back(*config.stereo);
+    const auto lens = std::make_shared<const render::Lens>(calibration.cameras[0].intrinsics);
     for (int eye = 0; eye < 2; ++eye) {
-      AddUnit(*config.stereo, calibration.cameras[number++], EyePose(*config.stereo, eye), seed, X_BP);
+      AddUnit(*config.stereo, calibration.cameras[number++], lens, EyePose(*config.stereo, eye), seed, X_BP);
       units_.back().meters = eye == 0;
     }
     units_.back().late = config.stereo->eye_offset;
@@ -107,8 +137,16 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
   }
   for (const NamedCameraConfig& camera : config.cameras) {
     exposures_.emplace_back(camera);
-    AddUnit(camera, calibration.cameras[number++], MountPose(camera), seed, X_BP);
+    const auto lens = std::make_shared<const render::Lens>(calibration.cameras[number].intrinsics);
+    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera), seed, X_BP);
     units_.back().meters = true;
+  }
+  for (const RgbdCameraConfig& camera : config.rgbd) {
+    exposures_.emplace_back(camera);
+    const auto lens = std::make_shared<const render::Lens>(calibration.cameras[number].intrinsics);
+    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera), seed, X_BP);
+    units_.back().meters = true;
+    AddDepthUnit(camera, calibration.cameras[number++], seed);
   }
   for (std::size_t i = 0; i < config.gimbals.size(); ++i) {
     gimbals_.emplace_back(config.gimbals[i], seed, gimbal_calibrations_[i].name);
@@ -117,9 +155,10 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
 }
 
 void CameraSuite::AddUnit(const CameraConfig& config, const stack::CameraCalibration& calibration,
-                          const base::Transform& X_MC, std::uint64_t seed, const std::vector<base::Transform>& X_BP) {
-  const auto optics =
-      std::make_shared<const Optics>(Optics{config, calibration.intrinsics, calibration.name, seed, X_BP});
+                          std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC, std::uint64_t seed,
+                          const std::vector<base::Transform>& X_BP) {
+  const auto optics = std::make_shared<const Optics>(
+      Optics{config, calibration.intrinsics, std::move(lens), calibration.name, seed, X_BP});
   Unit unit{.config = config,
             .calibration = calibration,
             .take = [optics](const Exposure& e, render::CameraRenderer& r) { return TakeImage(*optics, e, r); },
@@ -130,6 +169,25 @@ void CameraSuite::AddUnit(const CameraConfig& config, const stack::CameraCalibra
             .clock = {config.rate},
             .opened = {},
             .last = {}};
+  units_.push_back(std::move(unit));
+}
+
+void CameraSuite::AddDepthUnit(const RgbdCameraConfig& config, const stack::CameraCalibration& calibration,
+                               std::uint64_t seed) {
+  const Unit& colour = units_.back();
+  DepthOptics optics{config.depth,     DepthIntrinsicsOf(config.depth),
+                     std::nullopt,     DepthPoseInColour(config.depth),
+                     calibration.name, seed};
+  if (config.depth.registered) optics.registered = calibration.intrinsics;
+  const auto shared = std::make_shared<const DepthOptics>(std::move(optics));
+  Unit unit = colour;
+  unit.config.motion_blur = false;
+  unit.config.row_delay = {};
+  unit.config.read_out = config.depth.read_out;
+  unit.calibration = calibration;
+  unit.take = [shared](const Exposure& e, render::CameraRenderer& r) { return TakeDepth(*shared, e, r); };
+  unit.meters = false;
+  unit.faults = FrameFaults(config.faults, seed, calibration.name);
   units_.push_back(std::move(unit));
 }
 

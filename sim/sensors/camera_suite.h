@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "render/lens.h"
 #include "sim/sensors/camera_config.h"
 #include "sim/sensors/darkroom.h"
 #include "sim/sensors/exposure.h"
@@ -22,6 +23,7 @@ namespace alula::sim {
 struct CamerasConfig {
   std::optional<StereoCameraConfig> stereo;
   std::vector<NamedCameraConfig> cameras;
+  std::vector<RgbdCameraConfig> rgbd;
   std::vector<GimbalConfig> gimbals;
 };
 
@@ -86,8 +88,11 @@ class CameraSuite {
     std::optional<Developed> last;
   };
 
-  void AddUnit(const CameraConfig& config, const stack::CameraCalibration& calibration, const base::Transform& X_MC,
-               std::uint64_t seed, const std::vector<base::Transform>& X_BP);
+  void AddUnit(const CameraConfig& config, const stack::CameraCalibration& calibration,
+               std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC, std::uint64_t seed,
+               const std::vector<base::Transform>& X_BP);
+  /// The depth camera of the colour camera that was added last.
+  void AddDepthUnit(const RgbdCameraConfig& config, const stack::CameraCalibration& calibration, std::uint64_t seed);
   Instant At(const Unit& unit, base::Time t) const;
   void Open(Unit& unit, base::Time now);
   bool IsOver(const Unit& unit, const Opened& opened, base::Time now) const;

@@ -1,5 +1,6 @@
 #include "sim/sensors/optics.h"
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -8,20 +9,28 @@
 namespace alula::sim {
 namespace {
 
+/// Keys the noise of one frame.
+std::uint64_t KeyOf(std::uint64_t seed, std::string_view name, std::uint32_t seq) {
+  base::RollingHash key;
+  key.Add(seed);
+  key.Add(name);
+  key.Add(std::uint64_t{seq});
+  return key.value();
+}
+
 /// What exposure and gain make of the light that the nominal exposure is set for.
 double Brightness(const Optics& optics, const ExposureSetting& setting) {
   return setting.length.Seconds() * setting.gain / optics.config.exposure.Seconds();
 }
 
-/// A band of rows of one picture: the camera with a lower image and its centre moved.
-render::View BandView(const Optics& optics, const Exposure::Slice& slice, const base::Transform& X_WC,
-                      double brightness) {
-  render::View view{.X_WC = X_WC,
-                    .intrinsics = optics.intrinsics,
-                    .draw_movers = optics.config.sees_vehicle,
-                    .brightness = static_cast<float>(brightness)};
-  view.intrinsics.height = slice.rows;
-  view.intrinsics.cy -= slice.first_row;
+/// Rows of one of the lens's sources, as a camera at X_WC draws it: the source with a lower image and its centre moved.
+render::View SourceView(const Optics& optics, const render::Lens::Source& source, const render::Lens::Rows& rows,
+                        const base::Transform& X_WC) {
+  render::View view{.X_WC = X_WC * base::Transform{source.q_CS, base::Vec3::Zero()},
+                    .intrinsics = source.intrinsics,
+                    .draw_movers = optics.config.sees_vehicle};
+  view.intrinsics.height = rows.count;
+  view.intrinsics.cy -= rows.first;
   return view;
 }
 
@@ -33,38 +42,49 @@ void Draw(const Optics& optics, const render::View& view, render::CameraRenderer
   }
 }
 
-/// The mean of the pictures at the slice's instants, rounded to nearest.
-void DrawSlice(const Optics& optics, const Exposure::Slice& slice, double brightness, render::CameraRenderer& renderer,
-               render::Picture& out) {
-  render::Picture instant;
+/// The mean of the pictures at the instants, rounded to nearest.
+void DrawMean(const Optics& optics, const render::Lens::Source& source, const render::Lens::Rows& rows,
+              const std::vector<Instant>& instants, double brightness, render::CameraRenderer& renderer,
+              render::Picture& out) {
   std::vector<std::uint32_t> sums;
-  const auto count = static_cast<std::uint32_t>(slice.instants.size());
-  for (const Instant& at : slice.instants) {
+  const auto count = static_cast<std::uint32_t>(instants.size());
+  for (const Instant& at : instants) {
     PlaceVehicle(optics, at.X_WB, renderer);
-    Draw(optics, BandView(optics, slice, at.X_WC, brightness), renderer, count == 1 ? out : instant);
+    render::View view = SourceView(optics, source, rows, at.X_WC);
+    view.brightness = static_cast<float>(brightness);
+    Draw(optics, view, renderer, out);
     if (count == 1) return;
-    sums.resize(instant.bytes.size(), count / 2);
-    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += instant.bytes[i];
+    sums.resize(out.bytes.size(), count / 2);
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] += out.bytes[i];
   }
-  out = std::move(instant);
   for (std::size_t i = 0; i < sums.size(); ++i) out.bytes[i] = static_cast<std::uint8_t>(sums[i] / count);
 }
 
 render::Picture DrawExposure(const Optics& optics, const Exposure& exposure, render::CameraRenderer& renderer) {
+  const render::Lens& lens = *optics.lens;
   const double brightness = Brightness(optics, exposure.setting);
-  render::Picture picture;
-  if (exposure.slices.size() == 1) {
-    DrawSlice(optics, exposure.slices.front(), brightness, renderer, picture);
-    return picture;
-  }
-  render::Picture band;
+  render::Picture picture{
+      optics.intrinsics.width, optics.intrinsics.height, optics.config.kind == stack::CameraKind::kColour ? 3 : 1, {}};
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  const std::size_t row_bytes = channels * static_cast<std::size_t>(picture.width);
+  picture.bytes.resize(row_bytes * static_cast<std::size_t>(picture.height));
+  std::vector<std::uint8_t> canvas(channels * lens.canvas_pixels());
+  render::Picture drawn;
   for (const Exposure::Slice& slice : exposure.slices) {
-    DrawSlice(optics, slice, brightness, renderer, band);
-    picture.bytes.insert(picture.bytes.end(), band.bytes.begin(), band.bytes.end());
+    const render::Lens::Rows rows{slice.first_row, slice.rows};
+    for (std::size_t i = 0; i < lens.sources().size(); ++i) {
+      const render::Lens::Source& source = lens.sources()[i];
+      const render::Lens::Rows needed = lens.RowsOf(i, rows);
+      if (needed.count == 0) continue;
+      DrawMean(optics, source, needed, slice.instants, brightness, renderer, drawn);
+      const std::size_t first_pixel = source.first_pixel + static_cast<std::size_t>(needed.first) *
+                                                               static_cast<std::size_t>(source.intrinsics.width);
+      std::copy(drawn.bytes.begin(), drawn.bytes.end(),
+                canvas.begin() + static_cast<std::ptrdiff_t>(channels * first_pixel));
+    }
+    lens.Sample(canvas.data(), picture.channels, rows,
+                picture.bytes.data() + row_bytes * static_cast<std::size_t>(slice.first_row));
   }
-  picture.width = band.width;
-  picture.height = optics.intrinsics.height;
-  picture.channels = band.channels;
   return picture;
 }
 
@@ -77,13 +97,34 @@ void PlaceVehicle(const Optics& optics, const base::Transform& X_WB, render::Cam
   renderer.PlaceMovers(X_WP);
 }
 
+stack::DepthImage TakeDepth(const DepthOptics& optics, const Exposure& exposure, render::CameraRenderer& renderer) {
+  const Exposure::Slice& slice = exposure.slices[exposure.slices.size() / 2];
+  const base::Transform& X_WC = slice.instants[slice.instants.size() / 2].X_WC;
+  const render::View view{.X_WC = X_WC * optics.X_CD, .intrinsics = optics.intrinsics, .draw_movers = false};
+  render::DepthPicture depth;
+  render::Picture ambient;
+  renderer.Depth(view, depth);
+  const bool may_drown = optics.config.light.blinding <= 1.0;
+  if (may_drown) renderer.Grey(view, ambient);
+  stack::DepthImage image;
+  std::vector<std::uint16_t> millimetres =
+      render::MeasureDepth(depth, optics.intrinsics.fx, may_drown ? &ambient : nullptr, nullptr, optics.config.light,
+                           KeyOf(optics.seed, optics.name, exposure.seq));
+  const stack::CameraIntrinsics& seen = optics.registered ? *optics.registered : optics.intrinsics;
+  if (optics.registered) {
+    millimetres = render::RegisterDepth(millimetres, optics.intrinsics, *optics.registered, optics.X_CD);
+  }
+  image.width = seen.width;
+  image.height = seen.height;
+  image.exposure_start = exposure.captured + base::Nanoseconds(-exposure.setting.length.ns / 2);
+  image.exposure = exposure.setting.length;
+  image.millimetres = std::make_shared<const std::vector<std::uint16_t>>(std::move(millimetres));
+  return image;
+}
+
 stack::Image TakeImage(const Optics& optics, const Exposure& exposure, render::CameraRenderer& renderer) {
   render::Picture picture = DrawExposure(optics, exposure, renderer);
-  base::RollingHash key;
-  key.Add(optics.seed);
-  key.Add(std::string_view(optics.name));
-  key.Add(std::uint64_t{exposure.seq});
-  render::ApplyPixelNoise(picture, key.value(), optics.config.noise);
+  render::ApplyPixelNoise(picture, KeyOf(optics.seed, optics.name, exposure.seq), optics.config.noise);
 
   stack::Image image;
   image.format = picture.channels == 1 ? stack::PixelFormat::kGrey8 : stack::PixelFormat::kRgb8;

@@ -1,10 +1,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/camera_renderer.h"
+#include "render/lens.h"
 #include "sim/sensors/exposure.h"
 #include "stack/interface/measurement.h"
 
@@ -14,14 +17,28 @@ namespace alula::sim {
 struct Optics {
   CameraConfig config;
   stack::CameraIntrinsics intrinsics;
-  std::string name;                   // of the sensor; keys the noise
-  std::uint64_t seed = 1;             // of the run
-  std::vector<base::Transform> X_BP;  // the vehicle's parts, in the order of the renderer's movers
+  std::shared_ptr<const render::Lens> lens;  // of these intrinsics
+  std::string name;                          // of the sensor; keys the noise
+  std::uint64_t seed = 1;                    // of the run
+  std::vector<base::Transform> X_BP;         // the vehicle's parts, in the order of the renderer's movers
 };
 
 /// Draws an exposure and spoils it as the sensor does. Pure: the same arguments give the same bytes, on any thread,
 /// because the noise is keyed by (seed, name, seq).
 stack::Image TakeImage(const Optics& optics, const Exposure& exposure, render::CameraRenderer& renderer);
+
+/// What makes depth images: the depth camera and, where depth is registered, the colour camera it is carried over to.
+struct DepthOptics {
+  DepthCameraConfig config;
+  stack::CameraIntrinsics intrinsics;                 // its own
+  std::optional<stack::CameraIntrinsics> registered;  // the colour camera's
+  base::Transform X_CD;                               // pose of the depth camera in the colour camera
+  std::string name;
+  std::uint64_t seed = 1;
+};
+
+/// Measures depth at the middle of the exposure. `exposure` speaks of the colour camera. Pure, as TakeImage is.
+stack::DepthImage TakeDepth(const DepthOptics& optics, const Exposure& exposure, render::CameraRenderer& renderer);
 
 /// Puts the vehicle's parts where they are; nothing where the renderer has none.
 void PlaceVehicle(const Optics& optics, const base::Transform& X_WB, render::CameraRenderer& renderer);

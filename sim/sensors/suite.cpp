@@ -16,6 +16,7 @@ void Describe(base::Description& d, SensorsConfig& c) {
   d.Field("imu", c.imu, {.meaning = "inertial measurement unit"});
   d.Field("stereo", c.stereo, {.meaning = "stereo camera"});
   d.Field("cameras", c.cameras, {.meaning = "further cameras"});
+  d.Field("rgbd", c.rgbd, {.meaning = "colour cameras with a structured-light depth camera beside them"});
   d.Field("gimbals", c.gimbals, {.meaning = "mounts that cameras may sit on"});
   d.Field("barometer", c.barometer, {.meaning = "barometer"});
   d.Field("position_reference", c.position_reference, {.meaning = "external position sensor (motion capture)"});

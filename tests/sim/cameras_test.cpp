@@ -189,6 +189,51 @@ TEST(Cameras, SeesTheVehicleWhereItIsToldTo) {
   EXPECT_GT(different, blind.size() / 500);  // four thin legs
 }
 
+/// A crate 2.9 m off, seen by an RGB-D camera: depth in the pixels that the calibration says, registered or not.
+TEST(Cameras, RgbdMeasuresDepthInThePixelsItSays) {
+  const worlds::World world = testing::GroundAndCrate();
+  const auto renderer = render::MakeRenderer("raster", world, {});
+  for (const bool registered : {true, false}) {
+    SensorsConfig config;
+    config.rgbd.resize(1);
+    RgbdCameraConfig& camera = config.rgbd[0];
+    camera.name = "front";
+    camera.depth.registered = registered;
+    camera.depth.width = 320;
+    camera.depth.height = 240;
+    camera.depth.light.farthest = 5;
+    camera.depth.light.holes = 0;
+    camera.depth.light.disparity_noise = 0;
+    camera.depth.light.disparity_step = 0.01;
+    const stack::Calibration truth = TrueCalibration(config, testing::PlateOnLegs(), "vehicle0");
+    ASSERT_EQ(truth.cameras.size(), 2U);
+    const stack::CameraCalibration& depth = truth.cameras[1];
+    EXPECT_EQ(depth.kind, stack::CameraKind::kDepth);
+    EXPECT_EQ(depth.intrinsics.width, registered ? 640 : 320);
+    int images = 0, seen = 0;
+    const auto still = [](base::Time) { return testing::At({0, 0, 0.6}); };
+    for (const stack::Measurement& m : Record(config, *renderer, 1, still)) {
+      const auto* image = std::get_if<stack::DepthImage>(&m.data);
+      if (image == nullptr) continue;
+      ++images;
+      const base::Transform X_WC = base::Transform{base::Quat::Identity(), {0, 0, 0.6}} * depth.X_BC;
+      const stack::CameraIntrinsics& k = depth.intrinsics;
+      for (int v = 0; v < image->height; v += 5) {
+        for (int u = 0; u < image->width; u += 5) {
+          const double z = 1e-3 * (*image->millimetres)[static_cast<std::size_t>(v * image->width + u)];
+          if (z == 0) continue;
+          const Vec3 p = X_WC * Vec3(z * (u - k.cx) / k.fx, z * (v - k.cy) / k.fy, z);
+          const bool on_crate = std::abs(p.x() - 3) < 0.02, on_ground = std::abs(p.z()) < 0.03;
+          EXPECT_TRUE(on_crate || on_ground || std::abs(p.z() - 1) < 0.02) << p.transpose();
+          seen += on_crate;
+        }
+      }
+    }
+    EXPECT_GE(images, 2);
+    EXPECT_GT(seen, 100);
+  }
+}
+
 /// What is lost does not come, what is stuck shows the frame before, what is late comes late.
 TEST(Cameras, FramesAreLostStuckAndLate) {
   const worlds::World world = testing::GroundAndCrate();
@@ -368,7 +413,8 @@ TEST_P(Shutter, ShowsWhatSixtyFourSubFramesShow) {
     config.height = 240;
     config.row_delay = base::Microseconds(60);
   }
-  const Optics optics{config, IntrinsicsOf(config), "camera", 1, {}};
+  const stack::CameraIntrinsics k = IntrinsicsOf(config);
+  const Optics optics{config, k, std::make_shared<const render::Lens>(k), "camera", 1, {}};
   const auto plan = [&](base::Time t, double step) {
     return PlanExposure(config, optics.intrinsics.fx, {config.exposure, 1.0}, t, ShakingFlight, step);
   };
