@@ -26,7 +26,7 @@ struct Mover {
 struct View {
   base::Transform X_WC;
   stack::CameraIntrinsics intrinsics;
-  bool draw_movers = true;  // false for a camera that sits inside the vehicle it belongs to
+  bool draw_movers = true;  // false for a camera that sits inside the vehicle it belongs to: their shadows stay
   float brightness = 1.0F;  // exposure times gain over the nominal one: a factor on the signal of grey and colour
                             // pictures before it is rounded to eight bits and cut off at 255
   bool infrared = false;    // grey pictures by the materials' albedo in the near infrared

@@ -16,6 +16,7 @@ namespace alula::render::internal {
   F(BindRenderbuffer, BINDRENDERBUFFER)               \
   F(BindTexture, BINDTEXTURE)                         \
   F(BindVertexArray, BINDVERTEXARRAY)                 \
+  F(BlitFramebuffer, BLITFRAMEBUFFER)                 \
   F(BufferData, BUFFERDATA)                           \
   F(CheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS)   \
   F(Clear, CLEAR)                                     \

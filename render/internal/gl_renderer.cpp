@@ -29,6 +29,7 @@ GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& 
       options_(options),
       light_(world.light),
       X_WM_(movers.size()),
+      shadows_are_current_(movers.empty()),
       classes_(ClassesOf(world, movers)) {
   const CurrentContext current(*context_);
   const GlFunctions& gl = current.gl();
@@ -52,7 +53,10 @@ void GlRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
     throw base::FaultError("render",
                            std::to_string(X_WM.size()) + " poses for " + std::to_string(X_WM_.size()) + " movers");
   }
-  X_WM_.assign(X_WM.begin(), X_WM.end());
+  for (std::size_t i = 0; i < X_WM.size(); ++i) {
+    shadows_are_current_ = shadows_are_current_ && IsSame(X_WM[i], X_WM_[i]);
+    X_WM_[i] = X_WM[i];
+  }
 }
 
 void GlRenderer::Grey(const View& view, Picture& out) {
@@ -118,6 +122,11 @@ void GlRenderer::Surface(const View& view, SurfacePicture& out) {
 }
 
 void GlRenderer::Begin(const View& view, PixelKind kind) {
+  const bool paints = kind == PixelKind::kGrey || kind == PixelKind::kColour;
+  if (paints && !shadows_are_current_) {
+    scene_->PlaceShadows(X_WM_);
+    shadows_are_current_ = true;
+  }
   targets_->Bind(view.intrinsics.width, view.intrinsics.height, kind);
   context_->gl().Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }

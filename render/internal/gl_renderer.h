@@ -51,6 +51,7 @@ class GlRenderer final : public CameraRenderer {
   Options options_;
   worlds::Light light_;
   std::vector<base::Transform> X_WM_;
+  bool shadows_are_current_ = false;
   std::string description_;
   std::vector<worlds::SemanticClass> classes_;  // by instance
   std::vector<std::uint8_t> rgba_;              // scratch of the colour pass

@@ -41,7 +41,7 @@ GpuScene::GpuScene(const GlFunctions& gl, SceneGeometry geometry, const worlds::
     for (const Batch& batch : *batches) has_holes_ = has_holes_ || batch.holes;
   }
   Upload();
-  DrawShadowMap();
+  DrawStaticShadows();
 }
 
 void GpuScene::Upload() {
@@ -67,10 +67,11 @@ void GpuScene::Upload() {
   geometry_.indices = {};
 }
 
-void GpuScene::DrawShadowMap() {
+GpuScene::ShadowTarget GpuScene::MakeShadowTarget() const {
   const GlFunctions& gl = *gl_;
-  gl.GenTextures(1, &shadow_map_);
-  gl.BindTexture(GL_TEXTURE_2D, shadow_map_);
+  ShadowTarget target;
+  gl.GenTextures(1, &target.texture);
+  gl.BindTexture(GL_TEXTURE_2D, target.texture);
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, kShadowSide, kShadowSide, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                 nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
@@ -81,46 +82,88 @@ void GpuScene::DrawShadowMap() {
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 
-  GLuint framebuffer = 0;
-  gl.GenFramebuffers(1, &framebuffer);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_map_, 0);
+  gl.GenFramebuffers(1, &target.framebuffer);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, target.texture, 0);
   gl.DrawBuffer(GL_NONE);
   gl.ReadBuffer(GL_NONE);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw base::FaultError("render", "the shadow map cannot be drawn to");
   }
+  return target;
+}
+
+void GpuScene::DrawCasters(const ShadowRegion& region, const Batch* mover, const base::Transform& X_WM) {
+  const GlFunctions& gl = *gl_;
   gl.Viewport(0, 0, kShadowSide, kShadowSide);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_LESS);
-  gl.DepthMask(GL_TRUE);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
-  // The rim stays empty: what lies beyond the map looks up its edge and finds light.
   gl.Enable(GL_SCISSOR_TEST);
-  gl.Scissor(1, 1, kShadowSide - 2, kShadowSide - 2);
+  gl.Scissor(region.x0, region.y0, region.x1 - region.x0 + 1, region.y1 - region.y0 + 1);
   // Both faces, so that open meshes cast shadows too; pushed away from the sun by their slope against self-shadowing.
   gl.Disable(GL_CULL_FACE);
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5F, 4.0F);
+  if (mover != nullptr) gl.Enable(GL_DEPTH_CLAMP);  // movers may fly above all that stands
   for (const bool holes : {false, true}) {
     if (holes && !has_holes_) break;
-    const GlProgram program(gl, kPositionVertex, kShadowFragment, holes ? kHoles : "");
+    const std::vector<DrawRun> runs =
+        Those(AllRuns(mover != nullptr ? std::span(mover, 1) : std::span<const Batch>(geometry_.statics), true), holes);
+    const GlProgram& program = holes ? *caster_with_holes_ : *caster_;
     program.Use();
     program.Set("clip_from_world", shadow_.clip_from_world);
-    program.SetAffine("world_from_model", base::Transform{});
+    program.SetAffine("world_from_model", X_WM);
     program.Set("alpha", 2);
-    Draw(Those(AllRuns(geometry_.statics, true), holes), TextureKind::kNone);
+    Draw(runs, TextureKind::kNone);
   }
+  gl.Disable(GL_DEPTH_CLAMP);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.Disable(GL_SCISSOR_TEST);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-  gl.DeleteFramebuffers(1, &framebuffer);
+  gl.Enable(GL_CULL_FACE);
+  gl.DepthFunc(GL_LEQUAL);
+}
+
+void GpuScene::DrawStaticShadows() {
+  const GlFunctions& gl = *gl_;
+  // The rim stays empty: what lies beyond the map looks up its edge and finds light.
+  constexpr ShadowRegion kInside{1, 1, kShadowSide - 2, kShadowSide - 2};
+  caster_ = std::make_unique<GlProgram>(gl, kPositionVertex, kShadowFragment);
+  if (has_holes_) caster_with_holes_ = std::make_unique<GlProgram>(gl, kPositionVertex, kShadowFragment, kHoles);
+  shadow_map_ = MakeShadowTarget();
+  gl.DepthMask(GL_TRUE);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  DrawCasters(kInside, nullptr, {});
+  if (geometry_.movers.empty()) return;
+  static_shadows_ = MakeShadowTarget();
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, shadow_map_.framebuffer);
+  gl.BlitFramebuffer(0, 0, kShadowSide, kShadowSide, 0, 0, kShadowSide, kShadowSide, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void GpuScene::PlaceShadows(std::span<const base::Transform> X_WM) {
+  const GlFunctions& gl = *gl_;
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, static_shadows_.framebuffer);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, shadow_map_.framebuffer);
+  for (const ShadowRegion& r : shadow_regions_) {
+    gl.BlitFramebuffer(r.x0, r.y0, r.x1 + 1, r.y1 + 1, r.x0, r.y0, r.x1 + 1, r.y1 + 1, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  }
+  shadow_regions_.clear();
+  gl.BindVertexArray(vertex_array_);
+  for (std::size_t i = 0; i < X_WM.size(); ++i) {
+    Eigen::Matrix4d world_from_mover = Eigen::Matrix4d::Identity();
+    world_from_mover.topLeftCorner<3, 3>() = X_WM[i].R();
+    world_from_mover.topRightCorner<3, 1>() = X_WM[i].p;
+    const Batch& mover = geometry_.movers[i];
+    const ShadowRegion region = RegionOf(shadow_.texture_from_world * world_from_mover, mover.low, mover.high);
+    if (region.IsEmpty()) continue;
+    DrawCasters(region, &mover, X_WM[i]);
+    shadow_regions_.push_back(region);
+  }
 }
 
 void GpuScene::Bind(const GlProgram& program) const {
   gl_->BindVertexArray(vertex_array_);
   gl_->ActiveTexture(GL_TEXTURE1);
-  gl_->BindTexture(GL_TEXTURE_2D, shadow_map_);
+  gl_->BindTexture(GL_TEXTURE_2D, shadow_map_.texture);
   gl_->ActiveTexture(GL_TEXTURE0);
   program.Set("albedo", 0);
   program.Set("shadow_map", 1);

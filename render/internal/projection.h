@@ -21,6 +21,11 @@ void CheckView(const View& view);
 /// appear clockwise. w is the depth along the optical axis, m.
 Eigen::Matrix4d ClipFromWorld(const View& view);
 
+/// Equal to the bit, so that a mover has not moved.
+inline bool IsSame(const base::Transform& a, const base::Transform& b) {
+  return a.q.coeffs() == b.q.coeffs() && a.p == b.p;
+}
+
 /// Direction in the world of the ray through pixel (u, v), with unit depth: z_C = 1.
 base::Vec3 RayDirection(const View& view, double u, double v);
 

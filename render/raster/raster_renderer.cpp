@@ -9,7 +9,6 @@
 #include "render/internal/visible_order.h"
 #include "render/raster/holes.h"
 #include "render/raster/occlusion.h"
-#include "render/raster/shadow_map.h"
 
 namespace alula::render::raster {
 namespace {
@@ -55,7 +54,8 @@ RasterRenderer::RasterRenderer(const Kernels& kernels, internal::SceneGeometry g
       shadow_frame_(internal::FrameShadow(world, geometry.low, geometry.high)),
       scene_(std::move(geometry), LightingOf(world.light, shadow_frame_)),
       alpha_(PackAlpha(scene_.materials())),
-      shadow_map_(DrawShadowMap(scene_, shadow_frame_, alpha_, kernels)),
+      shadow_map_(scene_, shadow_frame_, alpha_, kernels),
+      X_WM_(movers.size()),
       classes_(internal::ClassesOf(world, movers)),
       drawn_numbers_(scene_.triangles()) {
   internal::CheckLight(light_);
@@ -66,7 +66,12 @@ void RasterRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
   if (X_WM.size() != movers) {
     throw base::FaultError("render", std::to_string(X_WM.size()) + " poses for " + std::to_string(movers) + " movers");
   }
-  for (std::size_t i = 0; i < X_WM.size(); ++i) scene_.PlaceMover(i, X_WM[i]);
+  for (std::size_t i = 0; i < X_WM.size(); ++i) {
+    if (internal::IsSame(X_WM[i], X_WM_[i])) continue;
+    X_WM_[i] = X_WM[i];
+    scene_.PlaceMover(i, X_WM[i]);
+    shadow_map_.MoversMoved();
+  }
 }
 
 const PackedTextures& RasterRenderer::Textures(int channels, bool infrared) {
@@ -170,7 +175,7 @@ void RasterRenderer::Paint(const View& view, int channels, Picture& out) {
   job.frame = ++frame_;
   job.textures = textures.views.data();
   for (std::size_t c = 0; c < 3; ++c) job.words[c] = textures.words[c].data();
-  job.shadow_map = shadow_map_.data();
+  job.shadow_map = shadow_map_.Words(scene_, shadow_frame_, alpha_, *kernels_);
   job.shadow_side = internal::kShadowSide;
   job.channels = channels;
   job.brightness = view.brightness;

@@ -10,6 +10,7 @@
 #include "render/raster/clipper.h"
 #include "render/raster/packed_textures.h"
 #include "render/raster/raster_scene.h"
+#include "render/raster/shadow_map.h"
 #include "render/raster/visibility_buffer.h"
 
 namespace alula::render::raster {
@@ -44,7 +45,8 @@ class RasterRenderer final : public CameraRenderer {
   internal::ShadowFrame shadow_frame_;
   RasterScene scene_;
   PackedTextures alpha_;
-  std::vector<std::uint32_t> shadow_map_;
+  ShadowMap shadow_map_;
+  std::vector<base::Transform> X_WM_;
   std::optional<PackedTextures> grey_;
   std::optional<PackedTextures> infrared_;
   std::optional<PackedTextures> colour_;

@@ -49,56 +49,100 @@ void DrawPolygon(const Kernels& kernels, const Target& target, const std::vector
   }
 }
 
-/// 65535 on the rim: what lies beyond the map looks up its edge and finds light.
-std::uint32_t TexelAt(const Target& target, int x, int y) {
-  constexpr int kLast = kShadowSide - 1;
-  if (x == 0 || y == 0 || x >= kLast || y >= kLast) return 65535;
+/// Draws a part into a target whose pixel (0, 0) is texel `origin` of the map.
+void DrawPart(const RasterScene& scene, const RasterScene::Part& part, const internal::ShadowFrame& frame,
+              const PackedTextures& alpha, const Kernels& kernels, const base::Vec2& origin, const Target& target) {
+  const Vertices& v = scene.vertices();
+  std::vector<Corner> polygon;
+  for (std::uint32_t t = part.first_triangle; t < part.first_triangle + part.triangles; ++t) {
+    std::array<base::Vec3, 3> p;  // texels, texels, nearness
+    std::array<Corner, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t vertex = scene.corners(static_cast<int>(i))[t];
+      const Eigen::Vector4d at(v.x[vertex], v.y[vertex], v.z[vertex], 1.0);
+      p[i] = (frame.texture_from_world * at).head<3>();
+      p[i] = {p[i].x() * kShadowSide - 0.5 - origin.x(), p[i].y() * kShadowSide - 0.5 - origin.y(), 1.0 - p[i].z()};
+      corners[i].column = p[i].x();
+      corners[i].row = p[i].y();
+      corners[i].depth = 1.0;
+    }
+    ScreenTriangle triangle{};
+    if (!NearnessPlane(p, triangle)) continue;
+    ClipTriangle(corners, 0.5, polygon);
+    HolePlanes holes;
+    if (part.holes) {
+      std::array<base::Vec3, 3> flat;
+      for (std::size_t i = 0; i < 3; ++i) flat[i] = {p[i].x(), p[i].y(), 1.0};
+      holes = HolesOf(scene, alpha, t, flat, p[0].head<2>().array().round().max(0.0).min(kShadowSide));
+    }
+    DrawPolygon(kernels, target, polygon, part.holes ? &holes : nullptr, triangle);
+  }
+}
+
+std::uint32_t DistanceAt(const Target& target, int x, int y) {
   const int tile = y / kTile * target.tiles_x + x / kTile;
   const float nearness = target.inverse_depth[tile * kTile * kTile + y % kTile * kTile + x % kTile];
   return static_cast<std::uint32_t>(std::ceil((1.0F - nearness) * 65535.0F));
 }
 
+/// 65535 on the rim: what lies beyond the map looks up its edge and finds light.
+std::uint32_t TexelAt(const Target& target, int x, int y) {
+  constexpr int kLast = kShadowSide - 1;
+  return x == 0 || y == 0 || x >= kLast || y >= kLast ? 65535 : DistanceAt(target, x, y);
+}
+
+/// Takes what is nearer to the sun into the map; the target's pixel (0, 0) is the region's first texel.
+void Merge(const Target& target, const internal::ShadowRegion& region, std::vector<std::uint32_t>& words) {
+  for (int y = region.y0; y <= region.y1; ++y) {
+    for (int x = region.x0; x <= region.x1; ++x) {
+      const std::uint32_t distance = DistanceAt(target, x - region.x0, y - region.y0);
+      std::uint32_t& here = words[Morton(x, y)];
+      here = (here & 0xffff0000U) | std::min(here & 0xffffU, distance);
+      std::uint32_t& above = words[Morton(x, y - 1)];
+      above = (above & 0xffffU) | std::min(above >> 16, distance) << 16;
+    }
+  }
+}
+
 }  // namespace
 
-std::vector<std::uint32_t> DrawShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame,
-                                         const PackedTextures& alpha, const Kernels& kernels) {
+ShadowMap::ShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame, const PackedTextures& alpha,
+                     const Kernels& kernels)
+    : words_(static_cast<std::size_t>(kShadowSide) * kShadowSide) {
   VisibilityBuffer buffer;
   const Target target = buffer.Clear(kShadowSide, kShadowSide, 0.0F, false);
-  const Vertices& v = scene.vertices();
-  std::vector<Corner> polygon;
   for (std::size_t number = 0; number < scene.statics(); ++number) {
-    const RasterScene::Part& part = scene.parts()[number];
-    for (std::uint32_t t = part.first_triangle; t < part.first_triangle + part.triangles; ++t) {
-      std::array<base::Vec3, 3> p;  // texels, texels, nearness
-      std::array<Corner, 3> corners;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t vertex = scene.corners(static_cast<int>(i))[t];
-        const Eigen::Vector4d at(v.x[vertex], v.y[vertex], v.z[vertex], 1.0);
-        p[i] = (frame.texture_from_world * at).head<3>();
-        p[i] = {p[i].x() * kShadowSide - 0.5, p[i].y() * kShadowSide - 0.5, 1.0 - p[i].z()};
-        corners[i].column = p[i].x();
-        corners[i].row = p[i].y();
-        corners[i].depth = 1.0;
-      }
-      ScreenTriangle triangle{};
-      if (!NearnessPlane(p, triangle)) continue;
-      ClipTriangle(corners, 0.5, polygon);
-      HolePlanes holes;
-      if (part.holes) {
-        std::array<base::Vec3, 3> flat;
-        for (std::size_t i = 0; i < 3; ++i) flat[i] = {p[i].x(), p[i].y(), 1.0};
-        holes = HolesOf(scene, alpha, t, flat, p[0].head<2>().array().round().max(0.0).min(kShadowSide));
-      }
-      DrawPolygon(kernels, target, polygon, part.holes ? &holes : nullptr, triangle);
-    }
+    DrawPart(scene, scene.parts()[number], frame, alpha, kernels, base::Vec2::Zero(), target);
   }
-  std::vector<std::uint32_t> map(static_cast<std::size_t>(kShadowSide) * kShadowSide);
   for (int y = 0; y < kShadowSide; ++y) {
     for (int x = 0; x < kShadowSide; ++x) {
-      map[Morton(x, y)] = TexelAt(target, x, y) | TexelAt(target, x, y + 1) << 16;
+      words_[Morton(x, y)] = TexelAt(target, x, y) | TexelAt(target, x, y + 1) << 16;
     }
   }
-  return map;
+  if (scene.parts().size() > scene.statics()) statics_ = words_;
+}
+
+const std::uint32_t* ShadowMap::Words(const RasterScene& scene, const internal::ShadowFrame& frame,
+                                      const PackedTextures& alpha, const Kernels& kernels) {
+  if (is_current_ || statics_.empty()) return words_.data();
+  for (const internal::ShadowRegion& region : regions_) {
+    for (int y = region.y0 - 1; y <= region.y1; ++y) {
+      for (int x = region.x0; x <= region.x1; ++x) words_[Morton(x, y)] = statics_[Morton(x, y)];
+    }
+  }
+  regions_.clear();
+  for (std::size_t number = scene.statics(); number < scene.parts().size(); ++number) {
+    const internal::Batch& box = scene.boxes()[number];
+    const internal::ShadowRegion region = internal::RegionOf(frame.texture_from_world, box.low, box.high);
+    if (region.IsEmpty()) continue;
+    VisibilityBuffer buffer;
+    const Target target = buffer.Clear(region.x1 - region.x0 + 1, region.y1 - region.y0 + 1, 0.0F, false);
+    DrawPart(scene, scene.parts()[number], frame, alpha, kernels, {region.x0, region.y0}, target);
+    Merge(target, region, words_);
+    regions_.push_back(region);
+  }
+  is_current_ = true;
+  return words_.data();
 }
 
 }  // namespace alula::render::raster
