@@ -8,7 +8,8 @@ std::string Compose(const SourcePosition& where, std::string_view key, std::stri
   std::string text;
   if (!where.file.empty()) {
     text += where.file;
-    if (where.line > 0) text += ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
+    if (where.line > 0) text += ":" + std::to_string(where.line);
+    if (where.line > 0 && where.column > 0) text += ":" + std::to_string(where.column);
     text += ": ";
   }
   if (!key.empty()) {

@@ -1,5 +1,8 @@
 #include "render/internal/gl_renderer.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "base/error.h"
 #include "render/internal/shaders.h"
 #include "render/internal/sky.h"
@@ -7,11 +10,6 @@
 
 namespace alula::render::internal {
 namespace {
-
-TextureKind TextureKindOf(const View& view, int channels) {
-  if (channels == 3) return TextureKind::kColour;
-  return view.infrared ? TextureKind::kInfrared : TextureKind::kLuma;
-}
 
 std::string Describe(const GlContext& context) {
   const auto text = [&context](GLenum name) {
@@ -25,17 +23,18 @@ std::string Describe(const GlContext& context) {
 
 GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& world, std::span<const Mover> movers,
                        Options options)
+    : GlRenderer(std::move(context), std::make_shared<const SceneGeometry>(BuildScene(world, movers)), options) {}
+
+GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, std::shared_ptr<const SceneGeometry> scene, Options options)
     : context_(std::move(context)),
       options_(options),
-      light_(world.light),
-      X_WM_(movers.size()),
-      shadows_are_current_(movers.empty()),
-      classes_(ClassesOf(world, movers)) {
+      geometry_(std::move(scene)),
+      X_WM_(geometry_->movers.size()),
+      shadows_are_current_(X_WM_.empty()) {
   const CurrentContext current(*context_);
   const GlFunctions& gl = current.gl();
-  CheckLight(light_);
   description_ = Describe(*context_);
-  scene_ = std::make_unique<GpuScene>(gl, BuildScene(world, movers), world);
+  scene_ = std::make_unique<GpuScene>(gl, *geometry_);
   targets_ = std::make_unique<RenderTargets>(gl);
   sky_ = std::make_unique<GlProgram>(gl, kSkyVertex, kSkyFragment);
   gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -46,6 +45,10 @@ GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& 
   gl.CullFace(GL_BACK);
   gl.FrontFace(GL_CW);  // rows come from the top: the picture is mirrored in GL's eyes
   CheckErrors();
+}
+
+std::unique_ptr<CameraRenderer> GlRenderer::Twin() const {
+  return std::make_unique<GlRenderer>(context_->Another(), geometry_, options_);
 }
 
 void GlRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
@@ -109,14 +112,14 @@ void GlRenderer::Surface(const View& view, SurfacePicture& out) {
   Begin(view, PixelKind::kSurface);
   DrawInstances(view);
   Resize(view, out);
-  out.first_mover = static_cast<std::uint32_t>(scene_->geometry().statics.size()) + 1;
+  out.first_mover = static_cast<std::uint32_t>(geometry_->statics.size()) + 1;
   surface_.resize(4 * out.instances.size());
   current.gl().ReadPixels(0, 0, out.width, out.height, GL_RGBA, GL_FLOAT, surface_.data());
   for (std::size_t i = 0; i < out.instances.size(); ++i) {
     const float* pixel = surface_.data() + 4 * i;
     out.normals[i] = {pixel[0], pixel[1], pixel[2]};
     out.instances[i] = static_cast<std::uint32_t>(pixel[3]);  // whole numbers below 2²⁴ are exact
-    out.classes[i] = classes_[out.instances[i]];
+    out.classes[i] = geometry_->classes[out.instances[i]];
   }
   CheckErrors();
 }
@@ -137,6 +140,7 @@ const GlProgram& GlRenderer::Program(Pass pass, bool lit, bool holes) {
   if (program) return *program;
   std::string defines = "#define MOST_LAMPS " + std::to_string(kMostLamps) + "\n";
   if (pass == Pass::kColour) defines += "#define COLOUR\n";
+  if (!options_.shadows) defines += "#define SHADOWLESS\n";
   if (lit) defines += "#define LIT\n";
   if (holes) defines += kHoles;
   const bool paints = pass == Pass::kGrey || pass == Pass::kColour;
@@ -151,7 +155,7 @@ GlRenderer::Programs GlRenderer::ProgramsOf(Pass pass, bool lit) {
 }
 
 void GlRenderer::Paint(const View& view, int channels) {
-  const AirAndLamps air = AirAndLampsOf(light_, view, channels);
+  const AirAndLamps air = AirAndLampsOf(geometry_->light, view, channels);
   const Programs programs = ProgramsOf(channels == 1 ? Pass::kGrey : Pass::kColour, air.IsNeeded());
   for (const GlProgram* program : programs) {
     if (program == nullptr || !air.IsNeeded()) continue;
@@ -164,15 +168,15 @@ void GlRenderer::Paint(const View& view, int channels) {
     program->Set("fog", air.fog);
     program->Set("extinction", air.extinction);
   }
-  DrawSurfaces(view, programs, TextureKindOf(view, channels));
+  DrawSurfaces(view, programs, TextureKindOf(view.infrared, channels));
   DrawSky(view, channels, air);
 }
 
 void GlRenderer::DrawSurfaces(const View& view, const Programs& programs, TextureKind kind) {
   const Eigen::Matrix4d clip_from_world = ClipFromWorld(view);
   const Frustum frustum = FrustumOf(clip_from_world);
-  const std::vector<DrawRun> runs = NearestFirst(scene_->geometry().statics, options_.cull ? &frustum : nullptr,
-                                                 view.X_WC.p, kind == TextureKind::kNone);
+  const std::vector<DrawRun> runs = NearestFirst(geometry_->statics, options_.cull ? &frustum : nullptr, view.X_WC.p,
+                                                 FocalFor(view), kind == TextureKind::kNone);
   for (const bool holes : {false, true}) {
     const GlProgram* program = programs[holes ? 1 : 0];
     if (program == nullptr) continue;
@@ -186,8 +190,12 @@ void GlRenderer::DrawSurfaces(const View& view, const Programs& programs, Textur
   }
 }
 
+double GlRenderer::FocalFor(const View& view) const {
+  return options_.levels ? std::max(view.intrinsics.fx, view.intrinsics.fy) : std::numeric_limits<double>::infinity();
+}
+
 void GlRenderer::DrawMovers(const View& view, const GlProgram& program, TextureKind kind, bool holes) {
-  const std::vector<Batch>& movers = scene_->geometry().movers;
+  const std::vector<Batch>& movers = geometry_->movers;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     if (movers[i].holes != holes) continue;
     // Planes in the mover's own frame, where its box is: columns of the clip matrix times X_WM.
@@ -195,9 +203,12 @@ void GlRenderer::DrawMovers(const View& view, const GlProgram& program, TextureK
     world_from_mover.topLeftCorner<3, 3>() = X_WM_[i].R();
     world_from_mover.topRightCorner<3, 1>() = X_WM_[i].p;
     const Frustum frustum = FrustumOf(ClipFromWorld(view) * world_from_mover);
-    if (options_.cull && !MayBeVisible(frustum, movers[i].low, movers[i].high)) continue;
+    const base::Vec3 eye_M = X_WM_[i].Inverse() * view.X_WC.p;
+    const std::vector<DrawRun> runs = NearestFirst(std::span(&movers[i], 1), options_.cull ? &frustum : nullptr, eye_M,
+                                                   FocalFor(view), kind == TextureKind::kNone);
+    if (runs.empty()) continue;
     program.SetAffine("world_from_model", world_from_mover);
-    scene_->Draw(AllRuns(std::span(&movers[i], 1), kind == TextureKind::kNone), kind);
+    scene_->Draw(runs, kind);
   }
 }
 
@@ -205,12 +216,13 @@ void GlRenderer::DrawMovers(const View& view, const GlProgram& program, TextureK
 void GlRenderer::DrawInstances(const View& view) {
   const Eigen::Matrix4d clip_from_world = ClipFromWorld(view);
   const Programs programs = ProgramsOf(Pass::kNormal);
-  const std::vector<Batch>& statics = scene_->geometry().statics;
-  const std::vector<Batch>& movers = scene_->geometry().movers;
+  const std::vector<Batch>& statics = geometry_->statics;
+  const std::vector<Batch>& movers = geometry_->movers;
   const auto draw = [&](const GlProgram& program, const Batch& batch, std::size_t instance, const base::Transform& X) {
     program.SetAffine("world_from_model", X);
     program.Set("instance", static_cast<float>(instance));
-    scene_->Draw(AllRuns(std::span(&batch, 1), true), TextureKind::kNone);
+    const base::Vec3 eye = X.Inverse() * view.X_WC.p;
+    scene_->Draw(NearestFirst(std::span(&batch, 1), nullptr, eye, FocalFor(view), true), TextureKind::kNone);
   };
   const Frustum frustum = FrustumOf(clip_from_world);
   const std::vector<std::uint32_t> order = VisibleOrder(statics, options_.cull ? &frustum : nullptr, view.X_WC.p);
@@ -239,7 +251,7 @@ void GlRenderer::DrawSky(const View& view, int channels, const AirAndLamps& air)
   rays.col(0) = middle;
   rays.col(1) = RayDirection(view, right, 0.5 * (bottom - 0.5)) - middle;
   rays.col(2) = RayDirection(view, 0.5 * (right - 0.5), bottom) - middle;
-  const SkyColours colours = SkyOf(light_, channels, view.brightness);
+  const SkyColours colours = SkyOf(geometry_->light, channels, view.brightness);
   const bool foggy = air.extinction > 0.0F;
   if (foggy && !foggy_sky_) {
     foggy_sky_ = std::make_unique<GlProgram>(context_->gl(), kSkyVertex, kSkyFragment, "#define LIT\n");

@@ -1,7 +1,6 @@
 #include "render/internal/gpu_scene.h"
 
 #include <cstddef>
-#include <utility>
 
 #include "base/error.h"
 #include "render/internal/shaders.h"
@@ -32,12 +31,8 @@ GLuint UploadLevels(const GlFunctions& gl, const std::vector<TextureLevel>& leve
 
 }  // namespace
 
-GpuScene::GpuScene(const GlFunctions& gl, SceneGeometry geometry, const worlds::World& world)
-    : gl_(&gl),
-      geometry_(std::move(geometry)),
-      light_(world.light),
-      shadow_(FrameShadow(world, geometry_.low, geometry_.high)) {
-  for (const std::vector<Batch>* batches : {&geometry_.statics, &geometry_.movers}) {
+GpuScene::GpuScene(const GlFunctions& gl, const SceneGeometry& geometry) : gl_(&gl), geometry_(&geometry) {
+  for (const std::vector<Batch>* batches : {&geometry_->statics, &geometry_->movers}) {
     for (const Batch& batch : *batches) has_holes_ = has_holes_ || batch.holes;
   }
   Upload();
@@ -51,11 +46,11 @@ void GpuScene::Upload() {
   GLuint buffers[2] = {0, 0};
   gl.GenBuffers(2, buffers);
   gl.BindBuffer(GL_ARRAY_BUFFER, buffers[0]);
-  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(geometry_.vertices.size() * sizeof(Vertex)),
-                geometry_.vertices.data(), GL_STATIC_DRAW);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(geometry_->vertices.size() * sizeof(Vertex)),
+                geometry_->vertices.data(), GL_STATIC_DRAW);
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
-  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(geometry_.indices.size() * sizeof(std::uint32_t)),
-                geometry_.indices.data(), GL_STATIC_DRAW);
+  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(geometry_->indices.size() * sizeof(std::uint32_t)),
+                geometry_->indices.data(), GL_STATIC_DRAW);
   const auto attribute = [&gl](GLuint location, GLint size, std::size_t offset) {
     gl.EnableVertexAttribArray(location);
     gl.VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(offset));
@@ -63,8 +58,6 @@ void GpuScene::Upload() {
   attribute(0, 3, offsetof(Vertex, position));
   attribute(1, 3, offsetof(Vertex, normal));
   attribute(2, 2, offsetof(Vertex, uv));
-  geometry_.vertices = {};  // the context has them now
-  geometry_.indices = {};
 }
 
 GpuScene::ShadowTarget GpuScene::MakeShadowTarget() const {
@@ -107,11 +100,11 @@ void GpuScene::DrawCasters(const ShadowRegion& region, const Batch* mover, const
   if (mover != nullptr) gl.Enable(GL_DEPTH_CLAMP);  // movers may fly above all that stands
   for (const bool holes : {false, true}) {
     if (holes && !has_holes_) break;
-    const std::vector<DrawRun> runs =
-        Those(AllRuns(mover != nullptr ? std::span(mover, 1) : std::span<const Batch>(geometry_.statics), true), holes);
+    const std::vector<DrawRun> runs = Those(
+        AllRuns(mover != nullptr ? std::span(mover, 1) : std::span<const Batch>(geometry_->statics), true), holes);
     const GlProgram& program = holes ? *caster_with_holes_ : *caster_;
     program.Use();
-    program.Set("clip_from_world", shadow_.clip_from_world);
+    program.Set("clip_from_world", geometry_->shadow.clip_from_world);
     program.SetAffine("world_from_model", X_WM);
     program.Set("alpha", 2);
     Draw(runs, TextureKind::kNone);
@@ -133,7 +126,7 @@ void GpuScene::DrawStaticShadows() {
   gl.DepthMask(GL_TRUE);
   gl.Clear(GL_DEPTH_BUFFER_BIT);
   DrawCasters(kInside, nullptr, {});
-  if (geometry_.movers.empty()) return;
+  if (geometry_->movers.empty()) return;
   static_shadows_ = MakeShadowTarget();
   gl.BindFramebuffer(GL_READ_FRAMEBUFFER, shadow_map_.framebuffer);
   gl.BlitFramebuffer(0, 0, kShadowSide, kShadowSide, 0, 0, kShadowSide, kShadowSide, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
@@ -152,8 +145,9 @@ void GpuScene::PlaceShadows(std::span<const base::Transform> X_WM) {
     Eigen::Matrix4d world_from_mover = Eigen::Matrix4d::Identity();
     world_from_mover.topLeftCorner<3, 3>() = X_WM[i].R();
     world_from_mover.topRightCorner<3, 1>() = X_WM[i].p;
-    const Batch& mover = geometry_.movers[i];
-    const ShadowRegion region = RegionOf(shadow_.texture_from_world * world_from_mover, mover.low, mover.high);
+    const Batch& mover = geometry_->movers[i];
+    const ShadowRegion region =
+        RegionOf(geometry_->shadow.texture_from_world * world_from_mover, mover.low, mover.high);
     if (region.IsEmpty()) continue;
     DrawCasters(region, &mover, X_WM[i]);
     shadow_regions_.push_back(region);
@@ -168,16 +162,16 @@ void GpuScene::Bind(const GlProgram& program) const {
   program.Set("albedo", 0);
   program.Set("shadow_map", 1);
   program.Set("alpha", 2);
-  program.SetAffine("shadow_from_world", shadow_.texture_from_world);
-  program.Set("to_sun", light_.to_sun_W.normalized().cast<float>().eval());
-  program.Set("light",
-              Eigen::Vector3f(light_.sun, light_.ambient, kShadowNormalOffset * static_cast<float>(shadow_.texel)));
+  program.SetAffine("shadow_from_world", geometry_->shadow.texture_from_world);
+  program.Set("to_sun", geometry_->light.to_sun_W.normalized().cast<float>().eval());
+  program.Set("light", Eigen::Vector3f(geometry_->light.sun, geometry_->light.ambient,
+                                       kShadowNormalOffset * static_cast<float>(geometry_->shadow.texel)));
 }
 
 GLuint GpuScene::TextureOf(int material, TextureKind kind) {
   GLuint& texture = textures_[{kind, material}];
   if (texture == 0) {
-    const geometry::Material& m = geometry_.materials[static_cast<std::size_t>(material)];
+    const geometry::Material& m = geometry_->materials[static_cast<std::size_t>(material)];
     texture = UploadLevels(*gl_, TextureLevels(m, kind), ChannelsOf(kind));
   }
   return texture;
@@ -186,7 +180,7 @@ GLuint GpuScene::TextureOf(int material, TextureKind kind) {
 GLuint GpuScene::AlphaOf(int material) {
   GLuint& texture = alphas_[material];
   if (texture == 0) {
-    texture = UploadLevels(*gl_, AlphaLevels(geometry_.materials[static_cast<std::size_t>(material)]), 1);
+    texture = UploadLevels(*gl_, AlphaLevels(geometry_->materials[static_cast<std::size_t>(material)]), 1);
   }
   return texture;
 }

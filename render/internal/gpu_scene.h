@@ -17,9 +17,8 @@ namespace alula::render::internal {
 /// The scene's buffers, textures and shadow map in one context, which must be current in every call.
 class GpuScene {
  public:
-  GpuScene(const GlFunctions& gl, SceneGeometry geometry, const worlds::World& world);
+  GpuScene(const GlFunctions& gl, const SceneGeometry& geometry);
 
-  const SceneGeometry& geometry() const { return geometry_; }
   /// Binds buffers and the shadow map and gives the program in use the light.
   void Bind(const GlProgram& program) const;
   /// Draws the shadows of movers at new places; the framebuffer in use is another one then.
@@ -44,9 +43,7 @@ class GpuScene {
   GLuint AlphaOf(int material);
 
   const GlFunctions* gl_;
-  SceneGeometry geometry_;
-  worlds::Light light_;
-  ShadowFrame shadow_;
+  const SceneGeometry* geometry_;  // outlives this
   bool has_holes_ = false;
   GLuint vertex_array_ = 0;
   ShadowTarget shadow_map_;                   // that pictures look up

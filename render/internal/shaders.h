@@ -5,6 +5,7 @@ namespace alula::render::internal {
 // GLSL of the passes. Light of sun and sky per vertex: flat faces and the round ones' fine tessellation make the
 // difference to light per pixel invisible, and llvmpipe pays per pixel. With LIT defined, lamps and fog come on top,
 // per pixel. COLOUR: three channels instead of one. HOLES: what the texture's alpha says is not there is left out.
+// SHADOWLESS (grey alone): what faces the sun is lit.
 
 inline constexpr const char* kHoles = "#define HOLES\n";
 
@@ -109,6 +110,8 @@ void main() {
 #else
   value = seen.r;
 #endif
+#elif defined(SHADOWLESS) && !defined(COLOUR)
+  value = texture(albedo, uv, kSharper).r * shade.y;
 #elif defined(COLOUR)
   value = vec4(texture(albedo, uv, kSharper).rgb * mix(shade.x, shade.y, texture(shadow_map, shadow_at)), 1.0);
 #else

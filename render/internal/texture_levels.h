@@ -16,6 +16,10 @@ struct TextureLevel {
 
 /// What a pass samples: nothing, luma, luma in the near infrared, or RGB.
 enum class TextureKind { kNone, kLuma, kInfrared, kColour };
+constexpr TextureKind TextureKindOf(bool infrared, int channels) {
+  if (channels == 3) return TextureKind::kColour;
+  return infrared ? TextureKind::kInfrared : TextureKind::kLuma;
+}
 constexpr int ChannelsOf(TextureKind kind) { return kind == TextureKind::kColour ? 3 : 1; }
 
 /// The albedo of a material (colour times texture, times its factor in the infrared; one texel where it has no

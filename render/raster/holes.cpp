@@ -2,20 +2,17 @@
 
 namespace alula::render::raster {
 
-HolePlanes HolesOf(const RasterScene& scene, const PackedTextures& alpha, std::uint32_t number,
-                   const std::array<base::Vec3, 3>& corners, const base::Vec2& about) {
+HolePlanes HolesOf(const internal::SceneGeometry& scene, const PackedTextures& alpha, std::size_t material,
+                   const std::array<std::uint32_t, 3>& vertices, const std::array<base::Vec3, 3>& corners,
+                   const base::Vec2& about) {
   HolePlanes planes{};
-  planes.texture = alpha.views[scene.texture_of_triangle()[number]];
+  planes.texture = alpha.views[material];
   planes.words = alpha.words[0].data();
   const std::array<base::Vec3, 3> cross = {corners[1].cross(corners[2]), corners[2].cross(corners[0]),
                                            corners[0].cross(corners[1])};
   const double scale = 1.0 / corners[0].dot(cross[0]);
   const base::Vec2 sides(planes.texture.last_column + 1, planes.texture.last_row + 1);
-  const auto uv_of = [&](std::size_t i) {
-    const std::uint32_t vertex = scene.corners(static_cast<int>(i))[number];
-    const float* attributes = scene.vertices().attributes + std::size_t{vertex} * kAttributes;
-    return base::Vec2(static_cast<double>(attributes[1]), static_cast<double>(attributes[2]));
-  };
+  const auto uv_of = [&](std::size_t i) { return scene.vertices[vertices[i]].uv.cast<double>().eval(); };
   const base::Vec2 periods = uv_of(0).array().floor();  // taken off, so that single precision stays below a texel
   planes.reference_x = static_cast<float>(about.x());
   planes.reference_y = static_cast<float>(about.y());

@@ -2,14 +2,15 @@
 
 #include <array>
 
+#include "render/internal/scene_geometry.h"
 #include "render/raster/packed_textures.h"
-#include "render/raster/raster_scene.h"
 
 namespace alula::render::raster {
 
-/// Planes of triangle `number`, whose corners are (column, row, depth): column / depth and row / depth are its place.
-/// `about`: whole pixels, in the picture and near the triangle.
-HolePlanes HolesOf(const RasterScene& scene, const PackedTextures& alpha, std::uint32_t number,
-                   const std::array<base::Vec3, 3>& corners, const base::Vec2& about);
+/// Planes of a triangle of `material` with the given vertices, whose corners are (column, row, depth): column / depth
+/// and row / depth are its place. `about`: whole pixels, in the picture and near the triangle.
+HolePlanes HolesOf(const internal::SceneGeometry& scene, const PackedTextures& alpha, std::size_t material,
+                   const std::array<std::uint32_t, 3>& vertices, const std::array<base::Vec3, 3>& corners,
+                   const base::Vec2& about);
 
 }  // namespace alula::render::raster

@@ -5,7 +5,6 @@
 
 #include "render/raster/clipper.h"
 #include "render/raster/holes.h"
-#include "render/raster/morton.h"
 #include "render/raster/visibility_buffer.h"
 
 namespace alula::render::raster {
@@ -49,19 +48,25 @@ void DrawPolygon(const Kernels& kernels, const Target& target, const std::vector
   }
 }
 
-/// Draws a part into a target whose pixel (0, 0) is texel `origin` of the map.
-void DrawPart(const RasterScene& scene, const RasterScene::Part& part, const internal::ShadowFrame& frame,
-              const PackedTextures& alpha, const Kernels& kernels, const base::Vec2& origin, const Target& target) {
-  const Vertices& v = scene.vertices();
+/// Draws the full level of a batch into a target whose pixel (0, 0) is texel `origin` of the map.
+void DrawBatch(const internal::SceneGeometry& scene, const internal::Batch& batch,
+               const Eigen::Matrix4d& texture_from_batch, const PackedTextures& alpha, const Kernels& kernels,
+               const base::Vec2& origin, const Target& target) {
+  const internal::Level& full = batch.levels[0];
+  std::vector<base::Vec3> places;  // of its vertices: texels, texels, nearness
+  for (std::size_t i = 0; i < full.vertex_count; ++i) {
+    const base::Vec3 v = scene.vertices[full.first_vertex + i].position.cast<double>();
+    const base::Vec3 p = texture_from_batch.topLeftCorner<3, 3>() * v + texture_from_batch.topRightCorner<3, 1>();
+    places.emplace_back(p.x() * kShadowSide - 0.5 - origin.x(), p.y() * kShadowSide - 0.5 - origin.y(), 1.0 - p.z());
+  }
   std::vector<Corner> polygon;
-  for (std::uint32_t t = part.first_triangle; t < part.first_triangle + part.triangles; ++t) {
-    std::array<base::Vec3, 3> p;  // texels, texels, nearness
+  for (std::size_t index = full.first_index; index < std::size_t{full.first_index} + full.index_count; index += 3) {
+    std::array<base::Vec3, 3> p;
+    std::array<base::Vec3, 3> flat;
     std::array<Corner, 3> corners;
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t vertex = scene.corners(static_cast<int>(i))[t];
-      const Eigen::Vector4d at(v.x[vertex], v.y[vertex], v.z[vertex], 1.0);
-      p[i] = (frame.texture_from_world * at).head<3>();
-      p[i] = {p[i].x() * kShadowSide - 0.5 - origin.x(), p[i].y() * kShadowSide - 0.5 - origin.y(), 1.0 - p[i].z()};
+      p[i] = places[scene.indices[index + i] - full.first_vertex];
+      flat[i] = {p[i].x(), p[i].y(), 1.0};
       corners[i].column = p[i].x();
       corners[i].row = p[i].y();
       corners[i].depth = 1.0;
@@ -70,79 +75,104 @@ void DrawPart(const RasterScene& scene, const RasterScene::Part& part, const int
     if (!NearnessPlane(p, triangle)) continue;
     ClipTriangle(corners, 0.5, polygon);
     HolePlanes holes;
-    if (part.holes) {
-      std::array<base::Vec3, 3> flat;
-      for (std::size_t i = 0; i < 3; ++i) flat[i] = {p[i].x(), p[i].y(), 1.0};
-      holes = HolesOf(scene, alpha, t, flat, p[0].head<2>().array().round().max(0.0).min(kShadowSide));
+    if (batch.holes) {
+      const base::Vec2 about = p[0].head<2>().array().round().max(0.0).min(kShadowSide);
+      holes = HolesOf(scene, alpha, static_cast<std::size_t>(batch.material),
+                      {scene.indices[index], scene.indices[index + 1], scene.indices[index + 2]}, flat, about);
     }
-    DrawPolygon(kernels, target, polygon, part.holes ? &holes : nullptr, triangle);
+    DrawPolygon(kernels, target, polygon, batch.holes ? &holes : nullptr, triangle);
   }
 }
 
-std::uint32_t DistanceAt(const Target& target, int x, int y) {
-  const int tile = y / kTile * target.tiles_x + x / kTile;
-  const float nearness = target.inverse_depth[tile * kTile * kTile + y % kTile * kTile + x % kTile];
-  return static_cast<std::uint32_t>(std::ceil((1.0F - nearness) * 65535.0F));
+/// Nearness in the map's words. Rounded away from the sun: the part of a step that is cut off goes to the light.
+std::uint16_t WordOf(float nearness) {
+  return static_cast<std::uint16_t>(65535 - static_cast<std::int32_t>(nearness * 65535.0F) - 32768);
 }
 
-/// 65535 on the rim: what lies beyond the map looks up its edge and finds light.
-std::uint32_t TexelAt(const Target& target, int x, int y) {
-  constexpr int kLast = kShadowSide - 1;
-  return x == 0 || y == 0 || x >= kLast || y >= kLast ? 65535 : DistanceAt(target, x, y);
+/// The rows of one row of tiles, from nearness; the map's rim stays at 65535: what lies beyond the map looks up its
+/// edge and finds light.
+void CopyTiles(const Target& target, int tile_row, ShadowMap& map) {
+  for (int y = 0; y < kTile; ++y) {
+    std::uint16_t* out = map.words.data() + std::ptrdiff_t{tile_row * kTile + y} * map.pitch;
+    for (int tile = 0; tile < target.tiles_x; ++tile) {
+      const float* row = target.inverse_depth + (std::ptrdiff_t{tile_row} * target.tiles_x + tile) * kTile * kTile +
+                         std::ptrdiff_t{y} * kTile;
+      for (int x = 0; x < kTile; ++x) {
+        out[tile * kTile + x] = WordOf(row[x]);
+      }
+    }
+  }
+}
+
+void ClearRim(ShadowMap& map) {
+  constexpr std::uint16_t kNothing = 65535 - 32768;
+  for (int i = 0; i < kShadowSide; ++i) {
+    const std::ptrdiff_t last = kShadowSide - 1;
+    for (const std::ptrdiff_t at : {std::ptrdiff_t{i}, last * map.pitch + i, std::ptrdiff_t{i} * map.pitch,
+                                    std::ptrdiff_t{i} * map.pitch + last}) {
+      map.words[static_cast<std::size_t>(at)] = kNothing;
+    }
+  }
 }
 
 /// Takes what is nearer to the sun into the map; the target's pixel (0, 0) is the region's first texel.
-void Merge(const Target& target, const internal::ShadowRegion& region, std::vector<std::uint32_t>& words) {
+void Merge(const Target& target, const internal::ShadowRegion& region, ShadowMap& map) {
   for (int y = region.y0; y <= region.y1; ++y) {
+    std::uint16_t* row = map.words.data() + std::ptrdiff_t{y} * map.pitch;
+    const int ty = y - region.y0;
     for (int x = region.x0; x <= region.x1; ++x) {
-      const std::uint32_t distance = DistanceAt(target, x - region.x0, y - region.y0);
-      std::uint32_t& here = words[Morton(x, y)];
-      here = (here & 0xffff0000U) | std::min(here & 0xffffU, distance);
-      std::uint32_t& above = words[Morton(x, y - 1)];
-      above = (above & 0xffffU) | std::min(above >> 16, distance) << 16;
+      const int tx = x - region.x0;
+      const int tile = ty / kTile * target.tiles_x + tx / kTile;
+      const float nearness = target.inverse_depth[tile * kTile * kTile + ty % kTile * kTile + tx % kTile];
+      const auto word = static_cast<std::int16_t>(WordOf(nearness));
+      if (word < static_cast<std::int16_t>(row[x])) row[x] = static_cast<std::uint16_t>(word);
     }
   }
 }
 
 }  // namespace
 
-ShadowMap::ShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame, const PackedTextures& alpha,
-                     const Kernels& kernels)
-    : words_(static_cast<std::size_t>(kShadowSide) * kShadowSide) {
+ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const PackedTextures& alpha, const Kernels& kernels) {
   VisibilityBuffer buffer;
   const Target target = buffer.Clear(kShadowSide, kShadowSide, 0.0F, false);
-  for (std::size_t number = 0; number < scene.statics(); ++number) {
-    DrawPart(scene, scene.parts()[number], frame, alpha, kernels, base::Vec2::Zero(), target);
+  for (const internal::Batch& batch : scene.statics) {
+    DrawBatch(scene, batch, scene.shadow.texture_from_world, alpha, kernels, base::Vec2::Zero(), target);
   }
-  for (int y = 0; y < kShadowSide; ++y) {
-    for (int x = 0; x < kShadowSide; ++x) {
-      words_[Morton(x, y)] = TexelAt(target, x, y) | TexelAt(target, x, y + 1) << 16;
-    }
-  }
-  if (scene.parts().size() > scene.statics()) statics_ = words_;
+  ShadowMap map;
+  constexpr int kPadding = 32;  // words: rows that follow each other do not fall into the same cache sets
+  map.pitch = kShadowSide + kPadding;
+  map.words.resize(static_cast<std::size_t>(map.pitch) * kShadowSide);
+  for (int row = 0; row < target.tiles_y; ++row) CopyTiles(target, row, map);
+  ClearRim(map);
+  return map;
 }
 
-const std::uint32_t* ShadowMap::Words(const RasterScene& scene, const internal::ShadowFrame& frame,
-                                      const PackedTextures& alpha, const Kernels& kernels) {
-  if (is_current_ || statics_.empty()) return words_.data();
+const ShadowMap& MoverShadows::Place(const internal::SceneGeometry& scene, const ShadowMap& statics,
+                                     const PackedTextures& alpha, const Kernels& kernels,
+                                     std::span<const base::Transform> X_WM) {
+  if (map_.words.empty()) map_ = statics;
   for (const internal::ShadowRegion& region : regions_) {
-    for (int y = region.y0 - 1; y <= region.y1; ++y) {
-      for (int x = region.x0; x <= region.x1; ++x) words_[Morton(x, y)] = statics_[Morton(x, y)];
+    for (int y = region.y0; y <= region.y1; ++y) {
+      const std::ptrdiff_t at = std::ptrdiff_t{y} * map_.pitch + region.x0;
+      std::copy_n(statics.words.begin() + at, region.x1 - region.x0 + 1, map_.words.begin() + at);
     }
   }
   regions_.clear();
-  for (std::size_t number = scene.statics(); number < scene.parts().size(); ++number) {
-    const internal::Batch& box = scene.boxes()[number];
-    const internal::ShadowRegion region = internal::RegionOf(frame.texture_from_world, box.low, box.high);
+  for (std::size_t i = 0; i < X_WM.size(); ++i) {
+    const internal::Batch& mover = scene.movers[i];
+    Eigen::Matrix4d texture_from_mover = Eigen::Matrix4d::Identity();
+    texture_from_mover.topLeftCorner<3, 3>() = X_WM[i].R();
+    texture_from_mover.topRightCorner<3, 1>() = X_WM[i].p;
+    texture_from_mover = (scene.shadow.texture_from_world * texture_from_mover).eval();
+    const internal::ShadowRegion region = internal::RegionOf(texture_from_mover, mover.low, mover.high);
     if (region.IsEmpty()) continue;
     VisibilityBuffer buffer;
     const Target target = buffer.Clear(region.x1 - region.x0 + 1, region.y1 - region.y0 + 1, 0.0F, false);
-    DrawPart(scene, scene.parts()[number], frame, alpha, kernels, {region.x0, region.y0}, target);
-    Merge(target, region, words_);
+    DrawBatch(scene, mover, texture_from_mover, alpha, kernels, {region.x0, region.y0}, target);
+    Merge(target, region, map_);
     regions_.push_back(region);
   }
-  is_current_ = true;
-  return words_.data();
+  return map_;
 }
 
 }  // namespace alula::render::raster

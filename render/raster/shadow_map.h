@@ -1,33 +1,36 @@
 #pragma once
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
-#include "render/internal/shadow_frame.h"
+#include "render/internal/scene_geometry.h"
+#include "render/raster/kernels.h"
 #include "render/raster/packed_textures.h"
-#include "render/raster/raster_scene.h"
 
 namespace alula::render::raster {
 
-/// Distance from the sun of what it sees first, in 1/65535 of the frame's depth (65535: nothing): kShadowSide² words in
-/// Morton order, texel (x, y) in the low half and (x, y + 1) in the high half. Pushed away from the sun by 1.5 times
-/// its slope a texel against self-shadowing. The outermost texels stay empty. Both faces cast.
-class ShadowMap {
- public:
-  /// Draws the statics' shadows.
-  ShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame, const PackedTextures& alpha,
-            const Kernels& kernels);
+/// Distance from the sun of what it sees first of the statics, in 1/65535 of the frame's depth (65535: nothing), less
+/// 2¹⁵; rows of kShadowSide texels, `pitch` apart. Pushed away from the sun by 1.5 times its slope a texel against
+/// self-shadowing. The outermost texels stay empty.
+struct ShadowMap {
+  int pitch = 0;
+  std::vector<std::uint16_t> words;
+};
 
-  /// The movers have been placed anew.
-  void MoversMoved() { is_current_ = false; }
-  /// The map with the movers where they stand now: where one has been or is, it is drawn anew, and nowhere else.
-  const std::uint32_t* Words(const RasterScene& scene, const internal::ShadowFrame& frame, const PackedTextures& alpha,
-                             const Kernels& kernels);
+/// Draws the full levels of all statics; both faces cast.
+ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const PackedTextures& alpha, const Kernels& kernels);
+
+/// A map of one's own with the movers' shadows in it: where one has been or is it is drawn anew, and nowhere else.
+class MoverShadows {
+ public:
+  /// The movers stand at X_WM, in their order.
+  const ShadowMap& Place(const internal::SceneGeometry& scene, const ShadowMap& statics, const PackedTextures& alpha,
+                         const Kernels& kernels, std::span<const base::Transform> X_WM);
 
  private:
-  std::vector<std::uint32_t> words_;
-  std::vector<std::uint32_t> statics_;  // without movers; empty where there are none
+  ShadowMap map_;
   std::vector<internal::ShadowRegion> regions_;
-  bool is_current_ = false;
 };
 
 }  // namespace alula::render::raster
