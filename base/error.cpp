@@ -17,6 +17,10 @@ std::string Compose(const SourcePosition& where, std::string_view key, std::stri
     text += ": ";
   }
   text += message;
+  // It may quote what a file says; a terminal gets one line of characters that print.
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
   return text;
 }
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <system_error>
 
 namespace alula::base {
@@ -105,12 +104,17 @@ void ForEachRow(std::istream& text, const std::string& file_name, const std::fun
   }
 }
 
-void ForEachRowOf(const std::filesystem::path& file, const std::function<void(const TextRow&)>& take) {
+std::ifstream OpenText(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   std::error_code error;
   if (!stream || std::filesystem::is_directory(file, error)) {
     throw InputError({file.string()}, "", "cannot be read; is the name right?");
   }
+  return stream;
+}
+
+void ForEachRowOf(const std::filesystem::path& file, const std::function<void(const TextRow&)>& take) {
+  std::ifstream stream = OpenText(file);
   ForEachRow(stream, file.string(), take);
 }
 

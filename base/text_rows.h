@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <functional>
 #include <istream>
 #include <string>
@@ -42,7 +43,9 @@ class TextRow {
 
 /// Calls `take` for every row that is neither empty nor a comment ('#' first). A row is valid during the call only.
 void ForEachRow(std::istream& text, const std::string& file_name, const std::function<void(const TextRow&)>& take);
-/// The same for a file. Throws InputError where it cannot be read.
+/// Throws InputError where the file cannot be read.
+std::ifstream OpenText(const std::filesystem::path& file);
+/// ForEachRow of a file.
 void ForEachRowOf(const std::filesystem::path& file, const std::function<void(const TextRow&)>& take);
 
 }  // namespace alula::base

@@ -25,15 +25,19 @@ base::Override ParseOverride(const std::string& text) {
   return {text.substr(0, equals), text.substr(equals + 1)};
 }
 
+void AddRender(CLI::App& verb, CommandLine& line) {
+  verb.add_option("--render", line.render,
+                  "who draws the pictures: osmesa, egl, raster (our own, on the processor) or auto")
+      ->check(CLI::IsMember({"auto", "osmesa", "egl", "raster"}));
+}
+
 /// What all verbs that fly a scenario understand.
 void AddFlight(CLI::App& verb, CommandLine& line, Raw& raw) {
   verb.add_option("scenario", raw.name, "a name of the catalog ('alula list') or a YAML file")->required();
   verb.add_option("--seed", raw.seed, "of all random numbers (default: the scenario's, else 1)");
   verb.add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
   verb.add_option("--workers", line.workers, "threads inside the run; they change no result")->check(CLI::Range(1, 64));
-  verb.add_option("--render", line.render,
-                  "who draws the pictures: osmesa, egl, raster (our own, on the processor) or auto")
-      ->check(CLI::IsMember({"auto", "osmesa", "egl", "raster"}));
+  AddRender(verb, line);
 }
 
 CLI::App* AddRun(CLI::App& app, CommandLine& line, Raw& raw) {
@@ -68,6 +72,28 @@ dataset::Format FormatOf(const std::string& word) {
   return word == "tum" ? dataset::Format::kTum : dataset::Format::kEuroc;
 }
 
+/// `check FILES…` and `check sensors SCENARIO`: the files are required by hand, because CLI11 would want them of both.
+struct Check {
+  CLI::App* files = nullptr;
+  CLI::App* sensors = nullptr;
+};
+Check AddCheck(CLI::App& app, CommandLine& line, Raw& raw) {
+  Check check;
+  check.files = app.add_subcommand("check", "read YAML files and build what they describe, without flying");
+  check.files->add_option("files", line.names, "names of the catalog or YAML files");
+  check.files->add_flag("--quiet", line.quiet, "print nothing when all is well");
+  check.sensors = check.files->add_subcommand(
+      "sensors", "measure a scenario's sensors on a test bench and compare with what is configured");
+  check.sensors->add_option("scenario", raw.name, "a name of the catalog ('alula list') or a YAML file")->required();
+  AddRender(*check.sensors, line);
+  check.sensors->add_flag("--json", line.json, "print JSON instead of the table");
+  for (CLI::App* verb : {check.files, check.sensors}) {
+    verb->add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
+    verb->add_option("--seed", raw.seed, "from which distributions are drawn");
+  }
+  return check;
+}
+
 }  // namespace
 
 std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
@@ -79,11 +105,7 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
   CLI::App* dataset = AddExport(app, line, raw);
   CLI::App* list = app.add_subcommand("list", "name the scenarios, vehicles and worlds of the catalogs");
   list->add_flag("--json", line.json, "as JSON");
-  CLI::App* check = app.add_subcommand("check", "read YAML files and build what they describe, without flying");
-  check->add_option("files", line.names, "names of the catalog or YAML files")->required();
-  check->add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
-  check->add_option("--seed", raw.seed, "from which distributions are drawn");
-  check->add_flag("--quiet", line.quiet, "print nothing when all is well");
+  const Check check = AddCheck(app, line, raw);
   CLI::App* bench = app.add_subcommand("bench", "measure, beside a reference in the same run");
   bench->add_option("names", line.names, "benchmarks (default: all)");
   bench->add_option("--json", line.json_file, "write one flat object of figures to this file");
@@ -102,9 +124,18 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
     if (dataset->parsed() || run->count("--dataset") > 0) line.dataset = FormatOf(raw.format);
   }
   if (list->parsed()) line.verb = CommandLine::Verb::kList;
-  if (check->parsed()) line.verb = CommandLine::Verb::kCheck;
+  if (check.sensors->parsed()) {
+    if (!line.names.empty()) throw base::InputError("check sensors: takes one scenario ('alula check sensors --help')");
+    line.verb = CommandLine::Verb::kCheckSensors;
+    line.names = {raw.name};
+  } else if (check.files->parsed()) {
+    if (line.names.empty()) throw base::InputError("check: files is required ('alula check --help' shows how)");
+    line.verb = CommandLine::Verb::kCheck;
+  }
   if (bench->parsed()) line.verb = CommandLine::Verb::kBench;
-  if (run->count("--seed") + dataset->count("--seed") + check->count("--seed") > 0) line.seed = raw.seed;
+  const std::size_t seeds =
+      run->count("--seed") + dataset->count("--seed") + check.files->count("--seed") + check.sensors->count("--seed");
+  if (seeds > 0) line.seed = raw.seed;
   if (!raw.out.empty()) line.out = raw.out;
   for (const std::string& text : raw.sets) line.overrides.push_back(ParseOverride(text));
   return std::nullopt;

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/nearest.h"
 #include "bench/bench.h"
+#include "scenarios/check/sensor_checks.h"
 #include "scenarios/dataset/dataset_recorder.h"
 #include "scenarios/environment.h"
 #include "scenarios/internal/cli.h"
@@ -130,6 +131,24 @@ int CheckFiles(const CommandLine& line) {
   return 0;
 }
 
+int CheckSensors(const CommandLine& line) {
+  const Scenario scenario = LoadScenario(FindScenario(line.names.front()), line.overrides, line.seed);
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  const auto told = [terminal](const std::string& what) {
+    if (terminal) std::fprintf(stderr, "\r%-70s", what.c_str());
+  };
+  check::Rig rig;
+  rig.sensors = scenario.config.sensors;
+  rig.body = MakeVehicle(scenario.config.vehicle, check::kVehicle)->body();
+  rig.step = scenario.config.simulation.step;
+  rig.seed = scenario.seed;
+  rig.render = line.render;
+  const check::Report report = check::CheckSensors(rig, scenario.config.sensors, told);
+  if (terminal) std::fprintf(stderr, "\r%-70s\r", "");
+  std::fputs((line.json ? check::ToJson(report, scenario.name) : check::ToTable(report)).c_str(), stdout);
+  return report.passed() ? 0 : kFailed;
+}
+
 int Bench(const CommandLine& line) {
   std::vector<std::string> known;
   for (const bench::Benchmark& benchmark : bench::Benchmarks()) known.emplace_back(benchmark.name);
@@ -168,6 +187,8 @@ int Main(int argc, char** argv) {
       return List(line);
     case CommandLine::Verb::kCheck:
       return CheckFiles(line);
+    case CommandLine::Verb::kCheckSensors:
+      return CheckSensors(line);
     case CommandLine::Verb::kBench:
       return Bench(line);
   }

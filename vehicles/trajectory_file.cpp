@@ -1,6 +1,7 @@
 #include "vehicles/trajectory_file.h"
 
 #include <cmath>
+#include <fstream>
 
 #include "base/text_rows.h"
 
@@ -30,9 +31,9 @@ TimedPose PoseOf(const base::TextRow& row) {
 
 }  // namespace
 
-std::vector<TimedPose> ReadTrajectory(const std::filesystem::path& file) {
+std::vector<TimedPose> ReadTrajectory(std::istream& text, const std::string& file_name) {
   std::vector<TimedPose> poses;
-  base::ForEachRowOf(file, [&](const base::TextRow& row) {
+  base::ForEachRow(text, file_name, [&](const base::TextRow& row) {
     const TimedPose pose = PoseOf(row);
     if (!poses.empty() && pose.time <= poses.back().time) {
       row.Fail("timestamp",
@@ -42,10 +43,15 @@ std::vector<TimedPose> ReadTrajectory(const std::filesystem::path& file) {
   });
   if (poses.size() < 2) {
     throw base::InputError(
-        {file.string()}, "",
+        {file_name}, "",
         "holds " + std::to_string(poses.size()) + " poses; a trajectory (TUM, or EuRoC's ground truth) needs two");
   }
   return poses;
+}
+
+std::vector<TimedPose> ReadTrajectory(const std::filesystem::path& file) {
+  std::ifstream stream = base::OpenText(file);
+  return ReadTrajectory(stream, file.string());
 }
 
 }  // namespace alula::vehicles

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <istream>
+#include <string>
 #include <vector>
 
 #include "base/frames.h"
@@ -21,5 +23,6 @@ struct TimedPose {
 /// Throws base::InputError with file and line for rows that are short, not numbers or not ascending in time and for
 /// quaternions that are not of unit length.
 std::vector<TimedPose> ReadTrajectory(const std::filesystem::path& file);
+std::vector<TimedPose> ReadTrajectory(std::istream& text, const std::string& file_name);
 
 }  // namespace alula::vehicles

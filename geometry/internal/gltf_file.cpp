@@ -94,8 +94,14 @@ std::optional<std::string> DecodePercent(std::string_view uri) {
 
 /// The file that a relative URI names, if it lies in `folder` or below it once links are followed.
 std::optional<fs::path> Below(const fs::path& folder, std::string_view uri) {
+  constexpr std::size_t kLongestName = 255;
   const std::optional<std::string> name = DecodePercent(uri);
-  if (!name || name->empty() || name->find_first_of(std::string_view("\\:\0", 3)) != std::string::npos) return {};
+  if (!name || name->empty() || name->size() > kLongestName) return {};
+  if (std::any_of(name->begin(), name->end(), [](unsigned char c) {
+        return c == '\\' || c == ':' || c < 0x20 || c == 0x7f;  // other systems' paths, schemes, what does not print
+      })) {
+    return {};
+  }
   const fs::path relative(*name);
   if (relative.is_absolute() || std::find(relative.begin(), relative.end(), "..") != relative.end()) return {};
   std::error_code error;

@@ -119,7 +119,7 @@ struct ShadeJob {
   const float* mover_attributes;  // likewise, of vertices from `first_mover_vertex` on
   std::uint32_t first_mover_vertex;
   const std::uint32_t* drawn;  // numbers of the triangles that the target's ids speak of
-  TrianglePlanes* planes;      // by id, made when first needed; number 0 is all zeros
+  TrianglePlanes* planes;      // by id, made when first needed; number 0 is all zeros but for `frame`
   std::uint32_t frame;         // never the same twice
   const TextureView* textures;
   const std::uint16_t* words[3];    // by channel
@@ -207,7 +207,7 @@ struct Kernels {
   void (*shade_lit)(const LitJob& job);
 };
 const Kernels& ScalarKernels();
-/// Null where this processor or this build does not have AVX2.
+/// Null where this processor or this build does not have AVX2 and FMA.
 const Kernels* Avx2KernelsOrNull();
 
 }  // namespace alula::render::raster

@@ -211,6 +211,7 @@ ShadeJob RasterRenderer::JobFor(const View& view, int channels, const Target& ta
   job.drawn = drawn_.numbers;
   job.planes = planes_.data();
   job.frame = ++frame_;
+  planes_[0].frame = job.frame;  // of pixels that show nothing: never made
   job.textures = textures.views.data();
   for (std::size_t c = 0; c < 3; ++c) job.words[c] = textures.words[c].data();
   job.shadow_map = shadows.words.data();

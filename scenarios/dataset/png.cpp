@@ -141,6 +141,11 @@ PngImage DecodePng(std::string_view bytes, const std::string& name) {
   r.rest = bytes;
   if (!DecodeHeader(r)) throw base::InputError({name}, "", "is no PNG image that can be read (" + r.error + ")");
   const std::size_t stride = png_get_rowbytes(r.png, r.info);
+  // Deflate packs at most 1032 to 1: a header that promises more lies, and is not worth the memory.
+  constexpr std::size_t kMostPacked = 1032;
+  if (stride * static_cast<std::size_t>(r.image.height) / kMostPacked > bytes.size()) {
+    throw base::InputError({name}, "", "is a broken PNG image (the file ends early)");
+  }
   r.image.bytes.resize(stride * static_cast<std::size_t>(r.image.height));
   for (int v = 0; v < r.image.height; ++v)
     r.rows.push_back(r.image.bytes.data() + static_cast<std::size_t>(v) * stride);

@@ -12,7 +12,7 @@ namespace alula::scenarios::internal {
 
 /// The command line, understood. This header is free of CLI11, which only cli.cpp includes: it is slow to compile.
 struct CommandLine {
-  enum class Verb { kRun, kExport, kList, kCheck, kBench };
+  enum class Verb { kRun, kExport, kList, kCheck, kCheckSensors, kBench };
   Verb verb = Verb::kList;
   std::vector<std::string> names;  // of scenarios, files or benchmarks
   std::optional<std::uint64_t> seed;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/random.h"
+#include "tests/fuzz/dataset_entry.h"
 #include "tests/fuzz/mesh_entry.h"
 #include "tests/fuzz/texture_entry.h"
 #include "tests/fuzz/yaml_entry.h"
@@ -28,6 +29,8 @@ const Target kTargets[] = {
     {"yaml", &alula::fuzz::ReadYaml, nullptr, "[]{},:#&*!|>'\"%@`- \n\t019.eEkgm/\xc2\xb5\xff\\~?<"},
     {"mesh", &alula::fuzz::ReadMesh, nullptr, "[]{},:\"/-+ \n\r\\#0123456789.eEvtnf=A\xff\x7f\x80\x01"},
     {"texture", &alula::fuzz::ReadTexture, &alula::fuzz::MendChecksums, "\x01\x02\x03\x04\x08\x10\x7f\x80\xff IDAT"},
+    {"dataset", &alula::fuzz::ReadDatasetFile, &alula::fuzz::MendChecksums,
+     "[]{},:#\"%- \n\t019.eEnai\x01\x02\x08\x10\xff"},
 };
 
 class FuzzCorpus : public ::testing::TestWithParam<Target> {
@@ -92,6 +95,6 @@ TEST_P(FuzzCorpus, NeitherDoItsMutations) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Parsers, FuzzCorpus, ::testing::ValuesIn(kTargets),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& target) { return std::string(target.param.name); });
 
 }  // namespace

@@ -1,0 +1,70 @@
+#include "scenarios/check/sensor_checks.h"
+
+#include "scenarios/check/camera_bench.h"
+#include "scenarios/check/exposure_check.h"
+#include "scenarios/check/frame_faults_check.h"
+#include "scenarios/check/gimbal_check.h"
+#include "scenarios/check/inertia_check.h"
+#include "scenarios/check/lens_check.h"
+#include "scenarios/check/photon_transfer_check.h"
+#include "scenarios/check/shutter_check.h"
+#include "scenarios/check/small_sensors_check.h"
+
+namespace alula::scenarios::check {
+namespace {
+
+void CheckInertia(const Rig& rig, const sim::ImuConfig& claimed, const Told& told, Report& report) {
+  told("imu: Allan deviation");
+  CheckInertiaAtRest(rig, claimed, report);
+  told("imu: turn-on bias");
+  CheckTurnOnBias(rig, claimed, report);
+  told("imu: stamps, mount, saturation");
+  CheckInertiaInMotion(rig, claimed, report);
+}
+
+void CheckCameras(const Rig& rig, const CameraGroup& group, const sim::SensorsConfig& claimed, const Told& told,
+                  Report& report) {
+  const Rig isolated = Isolate(rig, group);
+  Rig said = rig;
+  said.sensors = claimed;
+  const std::vector<CameraGeometry> geometry = GeometryOf(Isolate(said, group), group);
+  const sim::CameraConfig& config = ConfigOf(claimed, group);
+  const std::string& name = geometry.front().name;
+  told(name + ": lens");
+  const std::vector<CameraGeometry> measured = CheckLens(isolated, group, geometry, report);
+  told(name + ": photon transfer");
+  CheckPhotonTransfer(isolated, config, measured, report);
+  told(name + ": shutter");
+  CheckShutter(isolated, group, claimed, measured, report);
+  told(name + ": sub-frames");
+  CheckSubFrames(isolated, group, config, geometry.front(), report);
+  told(name + ": exposure control");
+  CheckExposureControl(rig, group, config, report);
+  told(name + ": frames on their way");
+  CheckFrameFaults(rig, group, config, report);
+}
+
+}  // namespace
+
+Report CheckSensors(const Rig& rig, const sim::SensorsConfig& claimed, const Told& told) {
+  Report report;
+  if (claimed.imu) CheckInertia(rig, *claimed.imu, told, report);
+  if (claimed.barometer) {
+    told("barometer");
+    CheckBarometer(rig, *claimed.barometer, report);
+  }
+  if (claimed.position_reference) {
+    told("position reference");
+    CheckPositionReference(rig, *claimed.position_reference, report);
+  }
+  told("battery");
+  CheckBattery(rig, claimed, report);
+  for (std::size_t i = 0; i < claimed.gimbals.size(); ++i) {
+    told("gimbal " + claimed.gimbals[i].name);
+    CheckGimbal(rig, static_cast<int>(i), claimed.gimbals[i], report);
+  }
+  for (const CameraGroup& group : GroupsOf(claimed)) CheckCameras(rig, group, claimed, told, report);
+  return report;
+}
+
+}  // namespace alula::scenarios::check
