@@ -12,7 +12,8 @@ namespace alula::geometry {
 struct Texture {
   int width = 0;
   int height = 0;
-  std::vector<std::uint8_t> rgb;  // 3 bytes a texel
+  std::vector<std::uint8_t> rgb;    // 3 bytes a texel
+  std::vector<std::uint8_t> alpha;  // 1 byte a texel: where it is below half, nothing is there; empty: all is there
 };
 
 /// How a surface looks: diffuse colour times texture.
@@ -20,6 +21,9 @@ struct Material {
   std::string name;
   Eigen::Vector3f colour = Eigen::Vector3f::Ones();
   std::shared_ptr<const Texture> texture;  // null: plain colour
+  float infrared = 1.0F;                   // factor on the albedo as an infrared camera sees it: leaves some 2
 };
+
+inline bool HasHoles(const Material& material) { return material.texture && !material.texture->alpha.empty(); }
 
 }  // namespace alula::geometry

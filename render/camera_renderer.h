@@ -18,6 +18,7 @@ struct Mover {
   std::string name;
   geometry::Shape shape;
   geometry::Material material;
+  worlds::SemanticClass semantic = worlds::SemanticClass::kVehicle;
 };
 
 /// Where a camera is and how it sees: u = fx·x/z + cx, v = fy·y/z + cy, integer coordinates being pixel centres.
@@ -25,9 +26,11 @@ struct Mover {
 struct View {
   base::Transform X_WC;
   stack::CameraIntrinsics intrinsics;
-  bool draw_movers = true;  // false for a camera that sits inside the vehicle it belongs to
+  bool draw_movers = true;  // false for a camera that sits inside the vehicle it belongs to: their shadows stay
   float brightness = 1.0F;  // exposure times gain over the nominal one: a factor on the signal of grey and colour
                             // pictures before it is rounded to eight bits and cut off at 255
+  bool infrared = false;    // grey pictures by the materials' albedo in the near infrared
+  std::vector<worlds::Lamp> lamps{};  // that ride with the camera (at most 8), in camera axes
 };
 
 /// A camera's picture before its sensor: grey values or RGB in [0, 255], rows from the top.
@@ -45,6 +48,17 @@ struct DepthPicture {
   std::vector<float> metres;
 };
 
+/// What is seen at each pixel, rows from the top.
+struct SurfacePicture {
+  int width = 0;
+  int height = 0;
+  std::uint32_t first_mover = 1;               // instance of the first mover: number of the world's objects + 1
+  std::vector<std::uint32_t> instances;        // number of the object in the world + 1, then the movers; 0: sky
+  std::vector<worlds::SemanticClass> classes;  // of the object or mover
+  std::vector<Eigen::Vector3f> normals;        // of the surface in camera axes, unit, as its vertices' normals say
+                                               // (round things are smooth); 0 where the sky is seen
+};
+
 /// Draws the world as cameras see it. The same inputs give the same bytes. A renderer may be called from any thread,
 /// but from one at a time; several renderers may live side by side. Buffers of `out` are reused where they fit.
 class CameraRenderer {
@@ -56,6 +70,7 @@ class CameraRenderer {
   virtual void Grey(const View& view, Picture& out) = 0;
   virtual void Colour(const View& view, Picture& out) = 0;
   virtual void Depth(const View& view, DepthPicture& out) = 0;
+  virtual void Surface(const View& view, SurfacePicture& out) = 0;
   /// A second renderer of the same scene, for another thread at the same time; what never changes is shared. Its movers
   /// stand at identity until they are placed in it too. Throws as MakeRenderer does.
   virtual std::unique_ptr<CameraRenderer> Twin() const = 0;

@@ -34,8 +34,8 @@ void AddGround(World& world, const Looks& looks, RandomStream& random) {
       const Vec3 centre(-kLength + (2 * column + 1) * half_x, -kWidth + (2 * row + 1) * half_y, -kDepth);
       const double yaw = random.Index(2) == 0 ? 0.0 : kPi;
       AddObject(world, "ground/" + std::to_string(row * kColumns + column), geometry::Box{{half_x, half_y, kDepth}},
-                {base::FromYaw(yaw), centre}, looks.ground[random.Index(looks.ground.size())],
-                random.Uniform(5.5, 8.0));
+                {base::FromYaw(yaw), centre}, looks.ground[random.Index(looks.ground.size())], random.Uniform(5.5, 8.0),
+                SemanticClass::kGround);
     }
   }
 }
@@ -56,7 +56,7 @@ void AddWall(World& world, const Looks& looks, const CourtyardConfig& config, co
     const double yaw = random.Index(2) == 0 ? 0.0 : kPi;  // shows the other side
     const Transform X_LP{base::FromYaw(yaw), {x + 0.5 * length, kThickness, 0.5 * height}};
     AddObject(world, name + "/" + std::to_string(i), geometry::Box{{0.5 * length, kThickness, 0.5 * height}},
-              X_WL * X_LP, looks.wall[look], random.Uniform(5.0, 7.5));
+              X_WL * X_LP, looks.wall[look], random.Uniform(5.0, 7.5), SemanticClass::kWall);
     x += length;
     before = look;
   }
@@ -190,8 +190,11 @@ Light DrawLight(const CourtyardConfig& config, std::uint64_t seed) {
   Light light;
   light.to_sun_W = {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                     std::sin(elevation)};
-  light.sun = static_cast<float>(random.Uniform(0.5, 0.75));
-  light.ambient = static_cast<float>(random.Uniform(0.32, 0.42));
+  light.sun = static_cast<float>(config.sunlight * random.Uniform(0.5, 0.75));
+  light.ambient = static_cast<float>(config.skylight * random.Uniform(0.32, 0.42));
+  light.sky_brightness = static_cast<float>(std::sqrt(config.skylight));  // displayed values are roots of light
+  light.fog = config.fog;
+  light.lamps = config.lamps;
   return light;
 }
 

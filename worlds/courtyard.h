@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/describe.h"
 #include "worlds/world.h"
@@ -34,6 +36,10 @@ struct CourtyardConfig {
   double gust_time = 2.0;             // s
   double sun_elevation_min = 0.44;    // rad (25°)
   double sun_elevation_max = 1.22;    // rad (70°)
+  double sunlight = 1.0;              // factor on the sun's drawn strength; 0 at night
+  double skylight = 1.0;              // factor on the light of the sky; 0.01 at night
+  std::optional<Fog> fog{};           // none
+  std::vector<Lamp> lamps{};          // that stand in the courtyard, besides sun and sky
   std::string prop = "fountain.obj";  // a mesh in worlds/assets, in the middle of the courtyard; empty: none
   int texture_size = 1024;            // texels a side of ground and walls; the rest has half
   int placement_tries = 400;          // draws of the course before the nominal one is taken

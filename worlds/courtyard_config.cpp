@@ -43,6 +43,12 @@ void Describe(base::Description& d, CourtyardConfig& c) {
   d.Field("gust_time", c.gust_time, {.unit = "s", .meaning = "correlation time of gusts", .min = 0.05, .max = 60.0});
   Range(d, "sun_elevation_min", c.sun_elevation_min, "sun_elevation_max", c.sun_elevation_max,
         {.unit = "rad", .meaning = "range of the sun's elevation", .min = 0.05, .max = 1.57});
+  d.Field("sunlight", c.sunlight, {.meaning = "factor on the sun's strength; 0 at night", .min = 0.0, .max = 2.0});
+  d.Field("skylight", c.skylight,
+          {.meaning = "factor on the light of the sky; some 0.01 at night", .min = 0.0, .max = 2.0});
+  d.Field("fog", c.fog, {.meaning = "even fog; none where the key is missing"});
+  d.Field("lamps", c.lamps, {.meaning = "lamps that stand in the courtyard, at most 32"});
+  d.Check("lamps", [&c] { return c.lamps.size() <= 32 ? std::string() : std::string("must not be more than 32"); });
   d.Field("prop", c.prop, {.meaning = "mesh file of worlds/assets in the courtyard's middle; empty for none"});
   d.Field("texture_size", c.texture_size,
           {.meaning = "texels a side of ground and wall textures, a power of two", .min = 32, .max = 4096});

@@ -27,12 +27,15 @@ Looks AddCourtyardMaterials(World& world, int texture_size, std::uint64_t seed);
 
 /// Adds one object; gives its index.
 std::size_t AddObject(World& world, std::string name, geometry::Shape shape, const base::Transform& X_WO, int material,
-                      double texture_scale);
+                      double texture_scale, SemanticClass semantic = SemanticClass::kObstacle);
 
 /// Things that stand on the ground (z = 0) at a footprint; they stay inside its circle. Sizes and looks come from
 /// `random`. Parts are named "<name>/<part>".
 void AddTree(World& world, const Looks& looks, const std::string& name, const Footprint& at,
              base::RandomStream& random);
+/// A tree whose crown is of cards that show sprays of leaves (a material with holes) from both sides.
+void AddLeafyTree(World& world, int bark, int leaves, const std::string& name, const Footprint& at,
+                  base::RandomStream& random);
 void AddConifer(World& world, const Looks& looks, const std::string& name, const Footprint& at,
                 base::RandomStream& random);
 void AddCrates(World& world, const Looks& looks, const std::string& name, const Footprint& at, int stacked,

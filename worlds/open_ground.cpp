@@ -55,7 +55,7 @@ World MakeOpenGround(const OpenGroundConfig& config, std::uint64_t seed) {
                                 config.texture_size, seed);
   const double half = 0.5 * config.size;
   AddObject(world, "ground", geometry::Box{{half, half, 0.25}}, {base::Quat::Identity(), {0.0, 0.0, -0.25}}, ground,
-            7.0);
+            7.0, SemanticClass::kGround);
   AddPad(world, pad, {0.0, 0.0}, config.pad_radius);
   base::RandomStream random(seed, "world/blocks");
   for (int i = 0; i < config.blocks; ++i) {

@@ -23,4 +23,9 @@ struct Palette {
 std::shared_ptr<const geometry::Texture> MakeTexture(Pattern pattern, const Palette& palette, int size,
                                                      std::uint64_t seed, std::string_view name);
 
+/// A spray of leaves inside the unit square, with holes between them (alpha): foliage of the palette whose tone differs
+/// from leaf to leaf. From the stream "world/leaves/<name>" of `seed`.
+std::shared_ptr<const geometry::Texture> MakeLeafTexture(const Palette& palette, int size, std::uint64_t seed,
+                                                         std::string_view name);
+
 }  // namespace alula::worlds

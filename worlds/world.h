@@ -2,12 +2,15 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/frames.h"
 #include "geometry/material.h"
 #include "geometry/shape.h"
+#include "worlds/lighting.h"
+#include "worlds/semantic_class.h"
 
 namespace alula::worlds {
 
@@ -19,6 +22,7 @@ struct Object {
   int material = 0;            // index into World::materials
   double texture_scale = 1.0;  // metres per texture period
   bool collides = true;        // Bullet sees it (the renderer always does)
+  SemanticClass semantic = SemanticClass::kObstacle;
 };
 
 /// A square gate's opening: x along the direction of passage, z up, origin mid-opening.
@@ -41,6 +45,9 @@ struct Light {
   float sun = 0.7F;                           // strength of direct light
   float ambient = 0.35F;
   Eigen::Vector3f sky{0.62F, 0.74F, 0.90F};  // colour of the sky
+  float sky_brightness = 1.0F;               // factor on the sky as displayed: near 0 at night
+  std::optional<Fog> fog{};
+  std::vector<Lamp> lamps{};  // that stand in the world
 };
 
 /// What a world is: data from which Bullet, the renderer and the criteria are built. Nothing here moves.

@@ -36,6 +36,37 @@ void Add(base::RollingHash& hash, const Object& object) {
   hash.Add(static_cast<std::uint64_t>(object.collides));
 }
 
+void Add(base::RollingHash& hash, const Lamp& lamp) {
+  for (const base::Vec3& v : {lamp.position, lamp.direction, lamp.colour}) hash.Add(v);
+  for (const double x : {lamp.cone, lamp.softness, lamp.intensity, lamp.range}) hash.Add(x);
+}
+
+/// What most worlds lack enters under its name where it is there. Semantic classes do not: they label truth and change
+/// nothing that a vehicle meets.
+void AddExtras(base::RollingHash& hash, const World& world) {
+  if (world.light.sky_brightness != 1.0F) {
+    hash.Add(std::string_view("sky_brightness"));
+    hash.Add(static_cast<double>(world.light.sky_brightness));
+  }
+  if (world.light.fog) {
+    hash.Add(std::string_view("fog"));
+    hash.Add(world.light.fog->visibility);
+    hash.Add(world.light.fog->height);
+    hash.Add(world.light.fog->colour);
+  }
+  for (const Lamp& lamp : world.light.lamps) {
+    hash.Add(std::string_view("lamp"));
+    Add(hash, lamp);
+  }
+  for (const geometry::Material& material : world.materials) {
+    if (geometry::HasHoles(material)) hash.AddBytes(material.texture->alpha);
+    if (material.infrared == 1.0F) continue;
+    hash.Add(std::string_view("infrared"));
+    hash.Add(std::string_view(material.name));
+    hash.Add(static_cast<double>(material.infrared));
+  }
+}
+
 }  // namespace
 
 void AddTo(base::RollingHash& hash, const World& world) {
@@ -59,6 +90,7 @@ void AddTo(base::RollingHash& hash, const World& world) {
   hash.Add(world.pad_radius);
   hash.Add(std::string_view(world.pad_object));
   for (const base::Vec3& v : {world.target, world.bounds_low, world.bounds_high}) hash.Add(v);
+  AddExtras(hash, world);
 }
 
 }  // namespace alula::worlds

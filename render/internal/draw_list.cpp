@@ -15,8 +15,10 @@ std::vector<DrawRun> Runs(std::span<const Batch> batches, std::span<const std::u
   for (const std::uint32_t i : order) {
     const Batch& batch = batches[i];
     const Level& level = level_of(batch);
-    if (runs.empty() || (!ignore_materials && runs.back().material != batch.material)) {
-      runs.push_back({batch.material, {}, {}});
+    const bool together = !runs.empty() && runs.back().holes == batch.holes &&
+                          ((ignore_materials && !batch.holes) || runs.back().material == batch.material);
+    if (!together) {
+      runs.push_back({batch.material, batch.holes, {}, {}});
     }
     runs.back().counts.push_back(static_cast<GLsizei>(level.index_count));
     runs.back().offsets.push_back(
@@ -40,6 +42,11 @@ std::vector<DrawRun> AllRuns(std::span<const Batch> batches, bool ignore_materia
     if (batches[i].levels[0].index_count > 0) order.push_back(i);
   }
   return Runs(batches, order, ignore_materials, [](const Batch& batch) -> const Level& { return batch.levels[0]; });
+}
+
+std::vector<DrawRun> Those(std::vector<DrawRun> runs, bool holes) {
+  std::erase_if(runs, [holes](const DrawRun& run) { return run.holes != holes; });
+  return runs;
 }
 
 }  // namespace alula::render::internal

@@ -16,6 +16,7 @@ namespace alula::render::internal {
   F(BindRenderbuffer, BINDRENDERBUFFER)               \
   F(BindTexture, BINDTEXTURE)                         \
   F(BindVertexArray, BINDVERTEXARRAY)                 \
+  F(BlitFramebuffer, BLITFRAMEBUFFER)                 \
   F(BufferData, BUFFERDATA)                           \
   F(CheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS)   \
   F(Clear, CLEAR)                                     \
@@ -64,6 +65,7 @@ namespace alula::render::internal {
   F(Uniform1f, UNIFORM1F)                             \
   F(Uniform1i, UNIFORM1I)                             \
   F(Uniform3fv, UNIFORM3FV)                           \
+  F(Uniform4fv, UNIFORM4FV)                           \
   F(UniformMatrix3fv, UNIFORMMATRIX3FV)               \
   F(UniformMatrix4fv, UNIFORMMATRIX4FV)               \
   F(UniformMatrix4x3fv, UNIFORMMATRIX4X3FV)           \

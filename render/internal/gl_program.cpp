@@ -8,7 +8,8 @@
 namespace alula::render::internal {
 namespace {
 
-GLuint Compile(const GlFunctions& gl, GLenum stage, const char* source) {
+GLuint Compile(const GlFunctions& gl, GLenum stage, const std::string& text) {
+  const char* source = text.c_str();
   const GLuint shader = gl.CreateShader(stage);
   gl.ShaderSource(shader, 1, &source, nullptr);
   gl.CompileShader(shader);
@@ -22,12 +23,19 @@ GLuint Compile(const GlFunctions& gl, GLenum stage, const char* source) {
   return shader;
 }
 
+/// The version must come first.
+std::string WithDefines(const std::string& source, const std::string& defines) {
+  const std::size_t second_line = source.find('\n') + 1;
+  return source.substr(0, second_line) + defines + source.substr(second_line);
+}
+
 }  // namespace
 
-GlProgram::GlProgram(const GlFunctions& gl, const char* vertex_source, const char* fragment_source)
+GlProgram::GlProgram(const GlFunctions& gl, const char* vertex_source, const char* fragment_source,
+                     const std::string& defines)
     : gl_(&gl), id_(gl.CreateProgram()) {
-  for (const GLuint shader :
-       {Compile(gl, GL_VERTEX_SHADER, vertex_source), Compile(gl, GL_FRAGMENT_SHADER, fragment_source)}) {
+  for (const GLuint shader : {Compile(gl, GL_VERTEX_SHADER, WithDefines(vertex_source, defines)),
+                              Compile(gl, GL_FRAGMENT_SHADER, WithDefines(fragment_source, defines))}) {
     gl.AttachShader(id_, shader);
     gl.DeleteShader(shader);  // stays alive while attached
   }
@@ -47,6 +55,10 @@ void GlProgram::Set(const char* name, float value) const { gl_->Uniform1f(gl_->G
 
 void GlProgram::Set(const char* name, const Eigen::Vector3f& value) const {
   gl_->Uniform3fv(gl_->GetUniformLocation(id_, name), 1, value.data());
+}
+
+void GlProgram::Set(const char* name, std::span<const float> values) const {
+  gl_->Uniform4fv(gl_->GetUniformLocation(id_, name), static_cast<GLsizei>(values.size() / 4), values.data());
 }
 
 void GlProgram::Set(const char* name, const Eigen::Matrix3d& value) const {

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "render/camera_renderer.h"
+#include "render/internal/air_and_lamps.h"
 #include "render/internal/gl_context.h"
 #include "render/internal/gpu_scene.h"
 #include "render/internal/render_target.h"
+#include "render/internal/surface_classes.h"
 
 namespace alula::render::internal {
 
@@ -29,12 +32,22 @@ class GlRenderer final : public CameraRenderer {
   void Grey(const View& view, Picture& out) override;
   void Colour(const View& view, Picture& out) override;
   void Depth(const View& view, DepthPicture& out) override;
+  void Surface(const View& view, SurfacePicture& out) override;
   std::string Description() const override { return description_; }
 
  private:
-  void DrawSurfaces(const View& view, const GlProgram& program, int channels);
-  void DrawMovers(const View& view, const GlProgram& program, int channels);
-  void DrawSky(const View& view, int channels);
+  /// Grey or colour into the bound framebuffer.
+  void Paint(const View& view, int channels);
+  /// What has no holes with the one program, what has some with the other.
+  using Programs = std::array<const GlProgram*, 2>;
+  void DrawSurfaces(const View& view, const Programs& programs, TextureKind kind);
+  void DrawMovers(const View& view, const GlProgram& program, TextureKind kind, bool holes);
+  void DrawInstances(const View& view);
+  void DrawSky(const View& view, int channels, const AirAndLamps& air);
+  /// A program of a pass, made when first needed.
+  enum class Pass { kGrey, kColour, kDepth, kNormal };
+  const GlProgram& Program(Pass pass, bool lit, bool holes);
+  Programs ProgramsOf(Pass pass, bool lit = false);
   void Begin(const View& view, PixelKind kind);
   /// The longer focal length, or infinity where levels of detail are not wanted.
   double FocalFor(const View& view) const;
@@ -44,12 +57,15 @@ class GlRenderer final : public CameraRenderer {
   Options options_;
   std::shared_ptr<const SceneGeometry> geometry_;
   std::vector<base::Transform> X_WM_;
+  bool shadows_are_current_ = false;
   std::string description_;
   std::vector<std::uint8_t> rgba_;  // scratch of the colour pass
+  std::vector<float> surface_;      // scratch of the surface pass
   // Made once the context is current.
   std::unique_ptr<GpuScene> scene_;
   std::unique_ptr<RenderTargets> targets_;
-  std::unique_ptr<GlProgram> grey_, colour_, depth_, sky_;
+  std::unique_ptr<GlProgram> sky_, foggy_sky_;
+  std::array<std::unique_ptr<GlProgram>, 16> programs_;  // by pass, lit, holes
 };
 
 }  // namespace alula::render::internal

@@ -11,12 +11,11 @@ namespace {
 
 using Vertex = geometry::Mesh::Vertex;
 
-GLuint UploadTexture(const GlFunctions& gl, const geometry::Material& material, int channels) {
+GLuint UploadLevels(const GlFunctions& gl, const std::vector<TextureLevel>& levels, int channels) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
   gl.BindTexture(GL_TEXTURE_2D, texture);
   gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
-  const std::vector<TextureLevel> levels = TextureLevels(material, channels);
   GLint number = 0;
   for (const TextureLevel& level : levels) {
     gl.TexImage2D(GL_TEXTURE_2D, number++, channels == 1 ? GL_R8 : GL_RGBA8, level.width, level.height, 0,
@@ -32,13 +31,12 @@ GLuint UploadTexture(const GlFunctions& gl, const geometry::Material& material, 
 
 }  // namespace
 
-GpuScene::GpuScene(const GlFunctions& gl, const SceneGeometry& geometry)
-    : gl_(&gl),
-      geometry_(&geometry),
-      grey_textures_(geometry.materials.size(), 0),
-      colour_textures_(geometry.materials.size(), 0) {
+GpuScene::GpuScene(const GlFunctions& gl, const SceneGeometry& geometry) : gl_(&gl), geometry_(&geometry) {
+  for (const std::vector<Batch>* batches : {&geometry_->statics, &geometry_->movers}) {
+    for (const Batch& batch : *batches) has_holes_ = has_holes_ || batch.holes;
+  }
   Upload();
-  DrawShadowMap();
+  DrawStaticShadows();
 }
 
 void GpuScene::Upload() {
@@ -62,10 +60,11 @@ void GpuScene::Upload() {
   attribute(2, 2, offsetof(Vertex, uv));
 }
 
-void GpuScene::DrawShadowMap() {
+GpuScene::ShadowTarget GpuScene::MakeShadowTarget() const {
   const GlFunctions& gl = *gl_;
-  gl.GenTextures(1, &shadow_map_);
-  gl.BindTexture(GL_TEXTURE_2D, shadow_map_);
+  ShadowTarget target;
+  gl.GenTextures(1, &target.texture);
+  gl.BindTexture(GL_TEXTURE_2D, target.texture);
   gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, kShadowSide, kShadowSide, 0, GL_DEPTH_COMPONENT, GL_FLOAT,
                 nullptr);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
@@ -76,62 +75,124 @@ void GpuScene::DrawShadowMap() {
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 
-  GLuint framebuffer = 0;
-  gl.GenFramebuffers(1, &framebuffer);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer);
-  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, shadow_map_, 0);
+  gl.GenFramebuffers(1, &target.framebuffer);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, target.texture, 0);
   gl.DrawBuffer(GL_NONE);
   gl.ReadBuffer(GL_NONE);
   if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw base::FaultError("render", "the shadow map cannot be drawn to");
   }
+  return target;
+}
+
+void GpuScene::DrawCasters(const ShadowRegion& region, const Batch* mover, const base::Transform& X_WM) {
+  const GlFunctions& gl = *gl_;
   gl.Viewport(0, 0, kShadowSide, kShadowSide);
   gl.Enable(GL_DEPTH_TEST);
   gl.DepthFunc(GL_LESS);
-  gl.DepthMask(GL_TRUE);
-  gl.Clear(GL_DEPTH_BUFFER_BIT);
-  // The rim stays empty: what lies beyond the map looks up its edge and finds light.
   gl.Enable(GL_SCISSOR_TEST);
-  gl.Scissor(1, 1, kShadowSide - 2, kShadowSide - 2);
+  gl.Scissor(region.x0, region.y0, region.x1 - region.x0 + 1, region.y1 - region.y0 + 1);
   // Both faces, so that open meshes cast shadows too; pushed away from the sun by their slope against self-shadowing.
   gl.Disable(GL_CULL_FACE);
   gl.Enable(GL_POLYGON_OFFSET_FILL);
   gl.PolygonOffset(1.5F, 4.0F);
-  const GlProgram program(gl, kPositionVertex, kShadowFragment);
-  program.Use();
-  program.Set("clip_from_world", geometry_->shadow.clip_from_world);
-  program.SetAffine("world_from_model", base::Transform{});
-  Draw(AllRuns(geometry_->statics, true), 0);
+  if (mover != nullptr) gl.Enable(GL_DEPTH_CLAMP);  // movers may fly above all that stands
+  for (const bool holes : {false, true}) {
+    if (holes && !has_holes_) break;
+    const std::vector<DrawRun> runs = Those(
+        AllRuns(mover != nullptr ? std::span(mover, 1) : std::span<const Batch>(geometry_->statics), true), holes);
+    const GlProgram& program = holes ? *caster_with_holes_ : *caster_;
+    program.Use();
+    program.Set("clip_from_world", geometry_->shadow.clip_from_world);
+    program.SetAffine("world_from_model", X_WM);
+    program.Set("alpha", 2);
+    Draw(runs, TextureKind::kNone);
+  }
+  gl.Disable(GL_DEPTH_CLAMP);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.Disable(GL_SCISSOR_TEST);
-  gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
-  gl.DeleteFramebuffers(1, &framebuffer);
+  gl.Enable(GL_CULL_FACE);
+  gl.DepthFunc(GL_LEQUAL);
+}
+
+void GpuScene::DrawStaticShadows() {
+  const GlFunctions& gl = *gl_;
+  // The rim stays empty: what lies beyond the map looks up its edge and finds light.
+  constexpr ShadowRegion kInside{1, 1, kShadowSide - 2, kShadowSide - 2};
+  caster_ = std::make_unique<GlProgram>(gl, kPositionVertex, kShadowFragment);
+  if (has_holes_) caster_with_holes_ = std::make_unique<GlProgram>(gl, kPositionVertex, kShadowFragment, kHoles);
+  shadow_map_ = MakeShadowTarget();
+  gl.DepthMask(GL_TRUE);
+  gl.Clear(GL_DEPTH_BUFFER_BIT);
+  DrawCasters(kInside, nullptr, {});
+  if (geometry_->movers.empty()) return;
+  static_shadows_ = MakeShadowTarget();
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, shadow_map_.framebuffer);
+  gl.BlitFramebuffer(0, 0, kShadowSide, kShadowSide, 0, 0, kShadowSide, kShadowSide, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+}
+
+void GpuScene::PlaceShadows(std::span<const base::Transform> X_WM) {
+  const GlFunctions& gl = *gl_;
+  gl.BindFramebuffer(GL_READ_FRAMEBUFFER, static_shadows_.framebuffer);
+  gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, shadow_map_.framebuffer);
+  for (const ShadowRegion& r : shadow_regions_) {
+    gl.BlitFramebuffer(r.x0, r.y0, r.x1 + 1, r.y1 + 1, r.x0, r.y0, r.x1 + 1, r.y1 + 1, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  }
+  shadow_regions_.clear();
+  gl.BindVertexArray(vertex_array_);
+  for (std::size_t i = 0; i < X_WM.size(); ++i) {
+    Eigen::Matrix4d world_from_mover = Eigen::Matrix4d::Identity();
+    world_from_mover.topLeftCorner<3, 3>() = X_WM[i].R();
+    world_from_mover.topRightCorner<3, 1>() = X_WM[i].p;
+    const Batch& mover = geometry_->movers[i];
+    const ShadowRegion region =
+        RegionOf(geometry_->shadow.texture_from_world * world_from_mover, mover.low, mover.high);
+    if (region.IsEmpty()) continue;
+    DrawCasters(region, &mover, X_WM[i]);
+    shadow_regions_.push_back(region);
+  }
 }
 
 void GpuScene::Bind(const GlProgram& program) const {
   gl_->BindVertexArray(vertex_array_);
   gl_->ActiveTexture(GL_TEXTURE1);
-  gl_->BindTexture(GL_TEXTURE_2D, shadow_map_);
+  gl_->BindTexture(GL_TEXTURE_2D, shadow_map_.texture);
   gl_->ActiveTexture(GL_TEXTURE0);
   program.Set("albedo", 0);
   program.Set("shadow_map", 1);
+  program.Set("alpha", 2);
   program.SetAffine("shadow_from_world", geometry_->shadow.texture_from_world);
   program.Set("to_sun", geometry_->light.to_sun_W.normalized().cast<float>().eval());
   program.Set("light", Eigen::Vector3f(geometry_->light.sun, geometry_->light.ambient,
                                        kShadowNormalOffset * static_cast<float>(geometry_->shadow.texel)));
 }
 
-GLuint GpuScene::TextureOf(int material, int channels) {
-  GLuint& texture = (channels == 1 ? grey_textures_ : colour_textures_)[static_cast<std::size_t>(material)];
+GLuint GpuScene::TextureOf(int material, TextureKind kind) {
+  GLuint& texture = textures_[{kind, material}];
   if (texture == 0) {
-    texture = UploadTexture(*gl_, geometry_->materials[static_cast<std::size_t>(material)], channels);
+    const geometry::Material& m = geometry_->materials[static_cast<std::size_t>(material)];
+    texture = UploadLevels(*gl_, TextureLevels(m, kind), ChannelsOf(kind));
   }
   return texture;
 }
 
-void GpuScene::Draw(std::span<const DrawRun> runs, int channels) {
+GLuint GpuScene::AlphaOf(int material) {
+  GLuint& texture = alphas_[material];
+  if (texture == 0) {
+    texture = UploadLevels(*gl_, AlphaLevels(geometry_->materials[static_cast<std::size_t>(material)]), 1);
+  }
+  return texture;
+}
+
+void GpuScene::Draw(std::span<const DrawRun> runs, TextureKind kind) {
   for (const DrawRun& run : runs) {
-    if (channels > 0) gl_->BindTexture(GL_TEXTURE_2D, TextureOf(run.material, channels));
+    if (run.holes) {
+      gl_->ActiveTexture(GL_TEXTURE2);
+      gl_->BindTexture(GL_TEXTURE_2D, AlphaOf(run.material));
+      gl_->ActiveTexture(GL_TEXTURE0);
+    }
+    if (kind != TextureKind::kNone) gl_->BindTexture(GL_TEXTURE_2D, TextureOf(run.material, kind));
     gl_->MultiDrawElements(GL_TRIANGLES, run.counts.data(), GL_UNSIGNED_INT, run.offsets.data(),
                            static_cast<GLsizei>(run.counts.size()));
   }

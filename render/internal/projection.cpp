@@ -18,6 +18,10 @@ void CheckView(const View& view) {
   if (!(view.brightness >= 0.0F && view.brightness <= kBrightest)) {
     throw base::InputError("camera: brightness is " + std::to_string(view.brightness) + "; it must be in [0, 1e6]");
   }
+  if (view.lamps.size() > kMostViewLamps) {
+    throw base::InputError("camera: " + std::to_string(view.lamps.size()) + " lamps ride on it; at most 8 are drawn");
+  }
+  for (const worlds::Lamp& lamp : view.lamps) worlds::Check(lamp, "camera");
   for (const double coefficient : k.distortion) {
     if (coefficient != 0.0)
       throw base::InputError("camera: lens distortion is not rendered; all coefficients must be 0");

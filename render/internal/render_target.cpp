@@ -16,6 +16,8 @@ GLenum FormatOf(PixelKind kind) {
       return GL_RGBA8;
     case PixelKind::kMetres:
       return GL_R32F;
+    case PixelKind::kSurface:
+      return GL_RGBA32F;
   }
   throw base::FaultError("render", "unknown kind of pixel");
 }

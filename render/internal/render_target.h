@@ -6,8 +6,8 @@
 
 namespace alula::render::internal {
 
-/// What a pass writes: luma, colour, or metres.
-enum class PixelKind { kGrey, kColour, kMetres };
+/// What a pass writes: luma, colour, metres, or normal and instance.
+enum class PixelKind { kGrey, kColour, kMetres, kSurface };
 
 /// Framebuffers by size and kind, made when first asked for. The context must be current in every call.
 class RenderTargets {

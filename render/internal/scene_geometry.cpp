@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "render/internal/air_and_lamps.h"
+#include "render/internal/surface_classes.h"
 
 namespace alula::render::internal {
 namespace {
@@ -39,6 +41,7 @@ Level AppendLevel(SceneGeometry& scene, const DetailLevel& detail, const base::T
 Batch Append(SceneGeometry& scene, const std::vector<DetailLevel>& levels, const base::Transform& X_WO, int material) {
   Batch batch;
   batch.material = material;
+  batch.holes = geometry::HasHoles(scene.materials[static_cast<std::size_t>(material)]);
   for (const DetailLevel& detail : levels) {
     const Level level = AppendLevel(scene, detail, X_WO, batch);
     batch.levels[static_cast<std::size_t>(batch.level_count++)] = level;
@@ -49,6 +52,7 @@ Batch Append(SceneGeometry& scene, const std::vector<DetailLevel>& levels, const
 }  // namespace
 
 SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> movers) {
+  CheckLight(world.light);
   SceneGeometry scene;
   scene.materials = world.materials;
   for (const worlds::Object& object : world.objects) {
@@ -67,6 +71,7 @@ SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> move
     scene.materials.push_back(mover.material);
     scene.movers.push_back(Append(scene, DetailLevels(mover.shape, 1.0), base::Transform{}, material));
   }
+  scene.classes = ClassesOf(world, movers);
   scene.light = world.light;
   scene.shadow = FrameShadow(world, scene.low, scene.high);
   return scene;

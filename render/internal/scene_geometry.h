@@ -26,6 +26,7 @@ struct Level {
 /// One object: its material, its levels of detail from the full one on, and the axis-aligned box that holds them.
 struct Batch {
   int material = 0;
+  bool holes = false;  // its texture has some
   std::array<Level, kMostLevels> levels;
   int level_count = 0;
   Eigen::Vector3f low = Eigen::Vector3f::Zero();
@@ -42,11 +43,13 @@ struct SceneGeometry {
   std::vector<geometry::Material> materials;      // the world's, then one a mover
   Eigen::Vector3f low = Eigen::Vector3f::Zero();  // of all statics, m
   Eigen::Vector3f high = Eigen::Vector3f::Zero();
+  std::vector<worlds::SemanticClass> classes;  // by instance
   worlds::Light light;
   ShadowFrame shadow;  // of the statics
 };
 
-/// Tessellates the world and the movers. Throws base::FaultError for an object whose material does not exist.
+/// Tessellates the world and the movers. Throws base::FaultError for an object whose material does not exist, and
+/// base::InputError for light that cannot be (CheckLight).
 SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> movers);
 
 /// How far a level's surface may lie from the full level's in the picture's middle, px; 1/cos of the angle off the

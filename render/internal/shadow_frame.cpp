@@ -51,4 +51,22 @@ ShadowFrame FrameShadow(const worlds::World& world, const Eigen::Vector3f& stati
   return FrameShadow(world.light.to_sun_W, low, high.cwiseMax(low));
 }
 
+ShadowRegion RegionOf(const Eigen::Matrix4d& texture_from_box, const Eigen::Vector3f& low,
+                      const Eigen::Vector3f& high) {
+  base::Vec2 first = base::Vec2::Constant(1e9);
+  base::Vec2 last = base::Vec2::Constant(-1e9);
+  for (int corner = 0; corner < 8; ++corner) {
+    const Eigen::Vector3f p((corner & 1) != 0 ? high.x() : low.x(), (corner & 2) != 0 ? high.y() : low.y(),
+                            (corner & 4) != 0 ? high.z() : low.z());
+    const base::Vec2 at = (texture_from_box * p.cast<double>().homogeneous()).head<2>() * kShadowSide;
+    first = first.cwiseMin(at);
+    last = last.cwiseMax(at);
+  }
+  const auto texel = [](double at, int beyond) {
+    return static_cast<int>(std::clamp(std::floor(at) + beyond, 0.0, static_cast<double>(kShadowSide)));
+  };
+  return {std::max(texel(first.x(), -1), 1), std::max(texel(first.y(), -1), 1),
+          std::min(texel(last.x(), 1), kShadowSide - 2), std::min(texel(last.y(), 1), kShadowSide - 2)};
+}
+
 }  // namespace alula::render::internal

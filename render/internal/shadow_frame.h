@@ -24,4 +24,15 @@ ShadowFrame FrameShadow(const base::Vec3& to_sun_W, const base::Vec3& low, const
 /// grown so that walls which stand on the bounds cast whole shadows; else all that stands in it.
 ShadowFrame FrameShadow(const worlds::World& world, const Eigen::Vector3f& low, const Eigen::Vector3f& high);
 
+/// Texels that the shadow of a box may fall into, inclusive; the map's rim is left out. Empty where x1 < x0.
+struct ShadowRegion {
+  int x0 = 0;
+  int y0 = 0;
+  int x1 = -1;
+  int y1 = -1;
+  bool IsEmpty() const { return x1 < x0 || y1 < y0; }
+};
+/// `texture_from_box`: from the box's axes to the frame's texture.
+ShadowRegion RegionOf(const Eigen::Matrix4d& texture_from_box, const Eigen::Vector3f& low, const Eigen::Vector3f& high);
+
 }  // namespace alula::render::internal

@@ -85,6 +85,18 @@ struct alignas(32) TextureView {
   std::int32_t unused[2];
 };
 
+/// Holes of a triangle: 1, u, v (texels of level 0) over depth as planes over the picture, about (reference_x,
+/// reference_y), and the alpha that they look up.
+struct HolePlanes {
+  float at[3];
+  float by_x[3];
+  float by_y[3];
+  float reference_x;  // px
+  float reference_y;
+  TextureView texture;
+  const std::uint16_t* words;
+};
+
 /// Attributes over depth as planes over the picture, relative to a pixel that the triangle covers.
 struct alignas(64) TrianglePlanes {
   float at[kAttributes];
@@ -122,6 +134,59 @@ struct ShadeJob {
   std::uint8_t* out;                // rows of width · channels
 };
 
+/// A normal (world axes, by the vertices' interpolation) over depth as planes over the picture, about a pixel that the
+/// triangle covers.
+struct alignas(64) NormalPlanes {
+  float at[3];
+  float by_x[3];
+  float by_y[3];
+  float reference_x;  // px
+  float reference_y;
+  std::uint32_t frame;  // that they were made for
+};
+
+struct NormalJob {
+  Target target;
+  Vertices vertices;
+  const float* normals;        // [3] a vertex, world axes; of statics
+  const float* mover_normals;  // likewise, of vertices from `first_mover_vertex` on
+  std::uint32_t first_mover_vertex;
+  const std::uint32_t* corners[3];
+  const std::uint32_t* drawn;  // numbers of the triangles that the target's ids speak of
+  NormalPlanes* planes;        // one each, made when first needed
+  std::uint32_t frame;         // never the same twice
+};
+
+/// The normals of a picture, in axes of the caller's choice.
+struct NormalPictureJob {
+  NormalJob normals;
+  float rotation[9];  // from world axes, row by row
+  float* out;         // [3] a pixel, rows from the top; 0 where nothing is seen
+};
+
+/// A lamp in world axes: render/internal/air_and_lamps.h says what the numbers are.
+struct Lamp {
+  float position[3];
+  float inverse_range_squared;
+  float direction[3];
+  float cone_cosine;
+  float light[3];
+  float cone_scale;
+};
+
+/// Grey or colour with lamps and fog, per pixel.
+struct LitJob {
+  ShadeJob shade;
+  NormalJob normals;
+  float eye[3];   // world axes, m
+  float rays[9];  // the ray with unit depth, world axes: at pixel (0, 0), by column, by row
+  const Lamp* lamps;
+  std::int32_t lamp_count;
+  float extinction;  // of the fog, 1/m; 0: none
+  float sky_depth;   // optical depth of the zenith
+  float fog[3];      // levels, by channel
+};
+
 /// The inner loops, one table for each instruction set. Both tables give the same bits.
 struct Kernels {
   const char* name;
@@ -132,9 +197,14 @@ struct Kernels {
   /// Returns the number of triangles in `to_clip`.
   std::uint32_t (*draw)(const DrawJob& job);
   void (*draw_one)(const Target& target, const ScreenTriangle& triangle);
+  /// As `draw_one`, but for the pixels where alpha is below half.
+  void (*draw_with_holes)(const Target& target, const ScreenTriangle& triangle, const HolePlanes& holes);
   void (*shade)(const ShadeJob& job);
   /// Depth in m of each pixel, 0 where nothing is nearer than 1/`farthest`.
   void (*metres)(const Target& target, float farthest, float* out);
+  void (*normals)(const NormalPictureJob& job);
+  /// As `shade`, with lamps and fog.
+  void (*shade_lit)(const LitJob& job);
 };
 const Kernels& ScalarKernels();
 /// Null where this processor or this build does not have AVX2 and FMA.

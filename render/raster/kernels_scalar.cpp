@@ -10,10 +10,13 @@ namespace {
 #include "render/raster/draw.inc"
 #include "render/raster/fragments.inc"
 #include "render/raster/sampling.inc"
+#include "render/raster/holes.inc"
 #include "render/raster/shade.inc"
+#include "render/raster/normals.inc"
+#include "render/raster/lit.inc"
 // clang-format on
 
-constexpr Kernels kKernels{"scalar", Transform, Draw, DrawOne, Shade, Metres};
+constexpr Kernels kKernels{"scalar", Transform, Draw, DrawOne, DrawWithHoles, Shade, Metres, Normals, ShadeLit};
 
 }  // namespace
 

@@ -1,7 +1,5 @@
 #include "render/raster/packed_textures.h"
 
-#include "render/internal/texture_levels.h"
-
 namespace alula::render::raster {
 namespace {
 
@@ -47,10 +45,22 @@ void Append(PackedTextures& packed, const std::vector<TextureLevel>& levels, int
 
 }  // namespace
 
-PackedTextures PackTextures(std::span<const geometry::Material> materials, int channels) {
+PackedTextures PackTextures(std::span<const geometry::Material> materials, internal::TextureKind kind) {
   PackedTextures packed;
   for (const geometry::Material& material : materials) {
-    Append(packed, internal::TextureLevels(material, channels), channels);
+    Append(packed, internal::TextureLevels(material, kind), internal::ChannelsOf(kind));
+  }
+  return packed;
+}
+
+PackedTextures PackAlpha(std::span<const geometry::Material> materials) {
+  PackedTextures packed;
+  for (const geometry::Material& material : materials) {
+    if (geometry::HasHoles(material)) {
+      Append(packed, internal::AlphaLevels(material), 1);
+    } else {
+      packed.views.push_back({});
+    }
   }
   return packed;
 }

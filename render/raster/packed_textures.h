@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "geometry/material.h"
+#include "render/internal/texture_levels.h"
 #include "render/raster/kernels.h"
 
 namespace alula::render::raster {
@@ -16,7 +17,10 @@ struct PackedTextures {
   std::array<std::vector<std::uint16_t>, 3> words;
 };
 
-/// `channels`: 1 (luma) or 3 (RGB). Throws base::FaultError as TextureLevels does.
-PackedTextures PackTextures(std::span<const geometry::Material> materials, int channels);
+/// Throws base::FaultError as TextureLevels does.
+PackedTextures PackTextures(std::span<const geometry::Material> materials, internal::TextureKind kind);
+
+/// Alpha of the materials that have holes; the others' views are empty.
+PackedTextures PackAlpha(std::span<const geometry::Material> materials);
 
 }  // namespace alula::render::raster

@@ -5,7 +5,9 @@
 #include "base/error.h"
 #include "render/internal/projection.h"
 #include "render/internal/sky.h"
+#include "render/internal/surface_classes.h"
 #include "render/internal/visible_order.h"
+#include "render/raster/holes.h"
 #include "render/raster/occlusion.h"
 
 namespace alula::render::raster {
@@ -60,7 +62,9 @@ RasterRenderer::RasterRenderer(const Kernels& kernels, std::shared_ptr<const Ras
       scene_(std::move(scene)),
       boxes_(scene_->geometry().statics),
       movers_(scene_->geometry().movers.size()),
+      X_WM_(movers_.size()),
       mover_attributes_(scene_->mover_vertices() * kAttributes),
+      mover_normals_(scene_->mover_vertices() * 3),
       vertices_(scene_->vertices()),
       drawn_numbers_(scene_->triangles()) {
   const internal::SceneGeometry& geometry = scene_->geometry();
@@ -78,6 +82,8 @@ void RasterRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
   }
   const internal::SceneGeometry& geometry = scene_->geometry();
   for (std::size_t i = 0; i < X_WM.size(); ++i) {
+    shadows_are_current_ = shadows_are_current_ && internal::IsSame(X_WM[i], X_WM_[i]);
+    X_WM_[i] = X_WM[i];
     movers_[i] = {X_WM[i], nullptr};
     PlaceBox(geometry.movers[i], X_WM[i], boxes_[geometry.statics.size() + i]);
   }
@@ -97,7 +103,7 @@ Target RasterRenderer::DrawView(const View& view, bool with_ids) {
   for (const std::uint32_t number : internal::VisibleOrder(boxes.first(drawn), &frustum, view.X_WC.p)) {
     if (IsHidden(boxes[number], m, target)) continue;
     if (number < statics) {
-      DrawLevel(internal::LevelFor(boxes[number], eye_W, focal), m, target);
+      DrawLevel(boxes[number], internal::LevelFor(boxes[number], eye_W, focal), m, target);
     } else {
       DrawMover(view, number - statics, target);
     }
@@ -111,16 +117,19 @@ void RasterRenderer::DrawMover(const View& view, std::size_t number, const Targe
   const double focal = std::max(view.intrinsics.fx, view.intrinsics.fy);
   const internal::Level& level = internal::LevelFor(scene_->geometry().movers[number], eye_M, focal);
   if (target.ids != nullptr && mover.lit != &level) {
-    scene_->LightMover(level, mover.X_WM, mover_attributes_.data());
+    scene_->LightMover(level, mover.X_WM, mover_attributes_.data(), mover_normals_.data());
     mover.lit = &level;
   }
-  DrawLevel(level, PixelFrom(view, mover.X_WM), target);
+  DrawLevel(scene_->geometry().movers[number], level, PixelFrom(view, mover.X_WM), target);
 }
 
-void RasterRenderer::DrawLevel(const internal::Level& level, const std::array<float, 12>& m, const Target& target) {
+void RasterRenderer::DrawLevel(const internal::Batch& batch, const internal::Level& level,
+                               const std::array<float, 12>& m, const Target& target) {
   kernels_->transform(scene_->positions(), vertices_.arrays(), level.first_vertex, level.vertex_count, m.data(),
                       static_cast<float>(internal::kNear));
   const std::uint32_t triangles = level.index_count / 3;
+  for (std::uint32_t i = 0; batch.holes && i < triangles; ++i) DrawSingly(target, level.first_index / 3 + i, true);
+  if (batch.holes) return;
   to_clip_.resize(std::max<std::size_t>(to_clip_.size(), triangles));
   const DrawJob job{{scene_->corners(0), scene_->corners(1), scene_->corners(2)},
                     level.first_index / 3,
@@ -130,22 +139,27 @@ void RasterRenderer::DrawLevel(const internal::Level& level, const std::array<fl
                     &drawn_,
                     to_clip_.data()};
   const std::uint32_t count = kernels_->draw(job);
-  for (std::uint32_t i = 0; i < count; ++i) DrawClipped(target, to_clip_[i]);
+  for (std::uint32_t i = 0; i < count; ++i) DrawSingly(target, to_clip_[i], false);
 }
 
-void RasterRenderer::DrawClipped(const Target& target, std::uint32_t number) {
+void RasterRenderer::DrawSingly(const Target& target, std::uint32_t number, bool has_holes) {
   const Vertices& v = vertices_.arrays();
   std::array<Corner, 3> corners;
   std::array<base::Vec3, 3> p;
+  std::array<std::uint32_t, 3> vertices{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint32_t c = scene_->corners(i)[number];
+    const std::uint32_t c = vertices[i] = scene_->corners(i)[number];
     p[i] = {v.column[c], v.row[c], v.depth[c]};
     corners[i] = {p[i].x(), p[i].y(), p[i].z(), v.flags[c] == 0, v.pixel_x[c], v.pixel_y[c]};
   }
   const base::Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
   const double volume = normal.dot(p[0]);
   if (!(volume < 0.0)) return;  // seen from behind
-  ClipTriangle(corners, internal::kNear, polygon_);
+  if (corners[0].snapped && corners[1].snapped && corners[2].snapped) {
+    polygon_.assign(corners.begin(), corners.end());
+  } else {
+    ClipTriangle(corners, internal::kNear, polygon_);
+  }
   if (polygon_.size() < 3) return;
   const auto by_depth = [](const Corner& a, const Corner& b) { return a.depth < b.depth; };
   const auto [nearest, farthest] = std::minmax_element(polygon_.begin(), polygon_.end(), by_depth);
@@ -157,18 +171,34 @@ void RasterRenderer::DrawClipped(const Target& target, std::uint32_t number) {
   triangle.high = static_cast<float>(1.0 / nearest->depth);
   drawn_.numbers[drawn_.count++] = number;
   triangle.id = drawn_.count;
+  HolePlanes holes;
+  if (has_holes) {
+    const base::Vec2 about(std::clamp(polygon_[0].x >> kSubPixelBits, 0, target.width),
+                           std::clamp(polygon_[0].y >> kSubPixelBits, 0, target.height));
+    holes = HolesOf(scene_->geometry(), scene_->alpha(), scene_->texture_of_triangle()[number], vertices, p, about);
+  }
   for (std::size_t i = 2; i < polygon_.size(); ++i) {
     const Corner* fan[3] = {&polygon_[0], &polygon_[i], &polygon_[i - 1]};  // front faces turn the other way
     for (int k = 0; k < 3; ++k) {
       triangle.x[k] = fan[k]->x;
       triangle.y[k] = fan[k]->y;
     }
-    kernels_->draw_one(target, triangle);
+    has_holes ? kernels_->draw_with_holes(target, triangle, holes) : kernels_->draw_one(target, triangle);
   }
 }
 
+const ShadowMap& RasterRenderer::Shadows() {
+  if (X_WM_.empty()) return scene_->shadow_map();
+  if (!shadows_are_current_) {
+    shadows_ = &mover_shadows_.Place(scene_->geometry(), scene_->shadow_map(), scene_->alpha(), *kernels_, X_WM_);
+    shadows_are_current_ = true;
+  }
+  return *shadows_;
+}
+
 ShadeJob RasterRenderer::JobFor(const View& view, int channels, const Target& target) {
-  const PackedTextures& textures = scene_->Textures(channels);
+  const PackedTextures& textures = scene_->Textures(internal::TextureKindOf(view.infrared, channels));
+  const ShadowMap& shadows = Shadows();
   ShadeJob job{};
   job.target = target;
   job.vertices = vertices_.arrays();
@@ -184,9 +214,9 @@ ShadeJob RasterRenderer::JobFor(const View& view, int channels, const Target& ta
   planes_[0].frame = job.frame;  // of pixels that show nothing: never made
   job.textures = textures.views.data();
   for (std::size_t c = 0; c < 3; ++c) job.words[c] = textures.words[c].data();
-  job.shadow_map = scene_->shadow_map().words.data();
+  job.shadow_map = shadows.words.data();
   job.shadow_side = internal::kShadowSide;
-  job.shadow_pitch = scene_->shadow_map().pitch;
+  job.shadow_pitch = shadows.pitch;
   job.channels = channels;
   job.brightness = view.brightness;
   SetSky(view, internal::SkyOf(scene_->geometry().light, channels, view.brightness), job);
@@ -203,7 +233,8 @@ void RasterRenderer::Paint(const View& view, int channels, Picture& out) {
   const Target target = DrawView(view, true);
   ShadeJob job = JobFor(view, channels, target);
   job.out = out.bytes.data();
-  kernels_->shade(job);
+  const internal::AirAndLamps air = internal::AirAndLampsOf(scene_->geometry().light, view, channels);
+  air.IsNeeded() ? ShadeLit(view, air, job) : kernels_->shade(job);
 }
 
 void RasterRenderer::Depth(const View& view, DepthPicture& out) {
@@ -212,6 +243,71 @@ void RasterRenderer::Depth(const View& view, DepthPicture& out) {
   out.height = view.intrinsics.height;
   out.metres.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height));
   kernels_->metres(DrawView(view, false), static_cast<float>(internal::kFar), out.metres.data());
+}
+
+void RasterRenderer::ShadeLit(const View& view, const internal::AirAndLamps& air, const ShadeJob& shade) {
+  const stack::CameraIntrinsics& k = view.intrinsics;
+  LitJob job{};
+  job.shade = shade;
+  job.normals = NormalsFor(shade.target);
+  const base::Vec3 first = internal::RayDirection(view, 0.0, 0.0);
+  const base::Mat3 R_WC = view.X_WC.R();
+  for (int i = 0; i < 3; ++i) {
+    job.eye[i] = static_cast<float>(view.X_WC.p[i]);
+    job.rays[i] = static_cast<float>(first[i]);
+    job.rays[3 + i] = static_cast<float>(R_WC(i, 0) / k.fx);
+    job.rays[6 + i] = static_cast<float>(R_WC(i, 1) / k.fy);
+    job.fog[i] = 255.0F * air.fog[i];
+  }
+  lamps_.clear();
+  for (const internal::LampView& lamp : air.lamps) {
+    Lamp& out = lamps_.emplace_back();
+    std::copy_n(lamp.position.data(), 3, out.position);
+    std::copy_n(lamp.direction.data(), 3, out.direction);
+    std::copy_n(lamp.light.data(), 3, out.light);
+    out.inverse_range_squared = lamp.inverse_range_squared;
+    out.cone_cosine = lamp.cone_cosine;
+    out.cone_scale = lamp.cone_scale;
+  }
+  job.lamps = lamps_.data();
+  job.lamp_count = static_cast<std::int32_t>(lamps_.size());
+  job.extinction = air.extinction;
+  job.sky_depth = air.sky_depth;
+  kernels_->shade_lit(job);
+}
+
+NormalJob RasterRenderer::NormalsFor(const Target& target) {
+  if (normal_planes_.size() < drawn_.count) normal_planes_.resize(drawn_.count);
+  return {target,
+          vertices_.arrays(),
+          scene_->normals(),
+          mover_normals_.data(),
+          scene_->first_mover_vertex(),
+          {scene_->corners(0), scene_->corners(1), scene_->corners(2)},
+          drawn_.numbers,
+          normal_planes_.data(),
+          frame_};
+}
+
+void RasterRenderer::Surface(const View& view, SurfacePicture& out) {
+  internal::CheckView(view);
+  internal::Resize(view, out);
+  out.first_mover = static_cast<std::uint32_t>(scene_->geometry().statics.size()) + 1;
+  const Target target = DrawView(view, true);
+  ++frame_;
+  NormalPictureJob job{NormalsFor(target), {}, out.normals.front().data()};
+  const Eigen::Matrix<float, 3, 3, Eigen::RowMajor> R_CW = view.X_WC.Inverse().R().cast<float>();
+  std::copy_n(R_CW.data(), 9, job.rotation);
+  kernels_->normals(job);
+  std::size_t pixel = 0;
+  for (int y = 0; y < out.height; ++y) {
+    const std::uint32_t* tiles = target.ids + (y / kTile * target.tiles_x * kTile + y % kTile) * kTile;
+    for (int x = 0; x < out.width; ++x, ++pixel) {
+      const std::uint32_t id = tiles[x / kTile * kTile * kTile + x % kTile];
+      out.instances[pixel] = id == 0 ? 0 : scene_->instance_of(drawn_.numbers[id - 1]);
+      out.classes[pixel] = scene_->geometry().classes[out.instances[pixel]];
+    }
+  }
 }
 
 }  // namespace alula::render::raster

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/camera_renderer.h"
+#include "render/internal/air_and_lamps.h"
 #include "render/raster/clipper.h"
 #include "render/raster/raster_scene.h"
 #include "render/raster/view_vertices.h"
@@ -26,6 +27,7 @@ class RasterRenderer final : public CameraRenderer {
   void Grey(const View& view, Picture& out) override { Paint(view, 1, out); }
   void Colour(const View& view, Picture& out) override { Paint(view, 3, out); }
   void Depth(const View& view, DepthPicture& out) override;
+  void Surface(const View& view, SurfacePicture& out) override;
   std::string Description() const override { return std::string("raster ") + kernels_->name; }
 
  private:
@@ -38,22 +40,35 @@ class RasterRenderer final : public CameraRenderer {
   /// The visibility buffer of a view; without ids for depth alone.
   Target DrawView(const View& view, bool with_ids);
   /// Triangles of a level whose vertices have been transformed by m.
-  void DrawLevel(const internal::Level& level, const std::array<float, 12>& m, const Target& target);
+  void DrawLevel(const internal::Batch& batch, const internal::Level& level, const std::array<float, 12>& m,
+                 const Target& target);
   void DrawMover(const View& view, std::size_t number, const Target& target);
-  void DrawClipped(const Target& target, std::uint32_t triangle);
+  /// Triangles that must be clipped, and those with holes.
+  void DrawSingly(const Target& target, std::uint32_t triangle, bool has_holes);
+  void ShadeLit(const View& view, const internal::AirAndLamps& air, const ShadeJob& shade);
+  NormalJob NormalsFor(const Target& target);
+  /// The map of the sun with the movers where they stand.
+  const ShadowMap& Shadows();
   ShadeJob JobFor(const View& view, int channels, const Target& target);
 
   const Kernels* kernels_;
   std::shared_ptr<const RasterScene> scene_;
   std::vector<internal::Batch> boxes_;  // the statics', then the movers' in the world
   std::vector<Placed> movers_;
+  std::vector<base::Transform> X_WM_;
   std::vector<float> mover_attributes_;
+  std::vector<float> mover_normals_;
+  MoverShadows mover_shadows_;
+  const ShadowMap* shadows_ = nullptr;
+  bool shadows_are_current_ = false;
   std::uint32_t frame_ = 0;
   // Scratch of a picture.
   ViewVertices vertices_;
   std::vector<std::uint32_t> drawn_numbers_;
   DrawnList drawn_{};
   std::vector<TrianglePlanes> planes_;
+  std::vector<NormalPlanes> normal_planes_;
+  std::vector<Lamp> lamps_;
   VisibilityBuffer buffer_;
   std::vector<std::uint32_t> to_clip_;
   std::vector<Corner> polygon_;

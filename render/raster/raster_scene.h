@@ -29,15 +29,20 @@ class RasterScene {
   const std::uint32_t* texture_of_triangle() const { return texture_of_triangle_.data(); }
   Positions positions() const { return {positions_[0].data(), positions_[1].data(), positions_[2].data()}; }
   const float* attributes() const { return attributes_.data(); }  // of the statics
-  const ShadowMap& shadow_map() const { return shadow_map_; }
-  /// `channels`: 1 or 3. Throws base::FaultError as PackTextures does.
-  const PackedTextures& Textures(int channels) const;
+  const float* normals() const { return normals_.data(); }        // of the statics, three floats each
+  const ShadowMap& shadow_map() const { return shadow_map_; }     // of the statics
+  const PackedTextures& alpha() const { return alpha_; }
+  /// Instance that a triangle belongs to: number of its object or mover + 1.
+  std::uint32_t instance_of(std::uint32_t triangle) const { return instance_of_triangle_[triangle]; }
+  /// Throws base::FaultError as PackTextures does.
+  const PackedTextures& Textures(internal::TextureKind kind) const;
 
-  /// Attributes of the vertices of a mover's level at X_WM. `out`: place of the first mover's first vertex.
-  void LightMover(const internal::Level& level, const base::Transform& X_WM, float* out) const;
+  /// Attributes and normals of the vertices of a mover's level at X_WM. `out`, `normals`: places of the first mover's
+  /// first vertex.
+  void LightMover(const internal::Level& level, const base::Transform& X_WM, float* out, float* normals) const;
 
  private:
-  void SetTriangles(const internal::Batch& batch);
+  void SetTriangles(const internal::Batch& batch, std::uint32_t instance);
   void SetPositions();
 
   internal::SceneGeometry geometry_;
@@ -45,11 +50,14 @@ class RasterScene {
   std::array<std::vector<std::uint32_t>, 3> corners_;
   std::vector<std::uint32_t> texture_of_triangle_;
   std::vector<Eigen::Vector2f> texels_;  // a period of each vertex's texture
+  std::vector<std::uint32_t> instance_of_triangle_;
   std::vector<float> attributes_;
+  std::vector<float> normals_;
   std::uint32_t first_mover_vertex_ = 0;
+  PackedTextures alpha_;
   ShadowMap shadow_map_;
   mutable std::mutex packing_;
-  mutable std::array<std::optional<PackedTextures>, 2> textures_;  // grey, colour
+  mutable std::array<std::optional<PackedTextures>, 4> textures_;  // by kind
 };
 
 }  // namespace alula::render::raster

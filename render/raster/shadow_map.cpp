@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/raster/clipper.h"
+#include "render/raster/holes.h"
 #include "render/raster/visibility_buffer.h"
 
 namespace alula::render::raster {
@@ -32,7 +33,7 @@ bool NearnessPlane(const std::array<base::Vec3, 3>& p, ScreenTriangle& triangle)
 
 /// Fan of a convex polygon, whichever way it turns.
 void DrawPolygon(const Kernels& kernels, const Target& target, const std::vector<Corner>& polygon,
-                 ScreenTriangle& triangle) {
+                 const HolePlanes* holes, ScreenTriangle& triangle) {
   for (std::size_t i = 2; i < polygon.size(); ++i) {
     const std::array<Corner, 3> c = {polygon[0], polygon[i - 1], polygon[i]};
     const std::int64_t area =
@@ -43,20 +44,49 @@ void DrawPolygon(const Kernels& kernels, const Target& target, const std::vector
       triangle.x[k] = corner.x;
       triangle.y[k] = corner.y;
     }
-    kernels.draw_one(target, triangle);
+    holes != nullptr ? kernels.draw_with_holes(target, triangle, *holes) : kernels.draw_one(target, triangle);
   }
 }
 
-/// Places of all vertices in the map: texels, texels, nearness.
-std::vector<base::Vec3> PlacesInMap(const internal::SceneGeometry& scene) {
-  std::vector<base::Vec3> places;
-  places.reserve(scene.vertices.size());
-  const Eigen::Matrix4d& m = scene.shadow.texture_from_world;
-  for (const geometry::Mesh::Vertex& v : scene.vertices) {
-    const base::Vec3 p = m.topLeftCorner<3, 3>() * v.position.cast<double>() + m.topRightCorner<3, 1>();
-    places.emplace_back(p.x() * kShadowSide - 0.5, p.y() * kShadowSide - 0.5, 1.0 - p.z());
+/// Draws the full level of a batch into a target whose pixel (0, 0) is texel `origin` of the map.
+void DrawBatch(const internal::SceneGeometry& scene, const internal::Batch& batch,
+               const Eigen::Matrix4d& texture_from_batch, const PackedTextures& alpha, const Kernels& kernels,
+               const base::Vec2& origin, const Target& target) {
+  const internal::Level& full = batch.levels[0];
+  std::vector<base::Vec3> places;  // of its vertices: texels, texels, nearness
+  for (std::size_t i = 0; i < full.vertex_count; ++i) {
+    const base::Vec3 v = scene.vertices[full.first_vertex + i].position.cast<double>();
+    const base::Vec3 p = texture_from_batch.topLeftCorner<3, 3>() * v + texture_from_batch.topRightCorner<3, 1>();
+    places.emplace_back(p.x() * kShadowSide - 0.5 - origin.x(), p.y() * kShadowSide - 0.5 - origin.y(), 1.0 - p.z());
   }
-  return places;
+  std::vector<Corner> polygon;
+  for (std::size_t index = full.first_index; index < std::size_t{full.first_index} + full.index_count; index += 3) {
+    std::array<base::Vec3, 3> p;
+    std::array<base::Vec3, 3> flat;
+    std::array<Corner, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+      p[i] = places[scene.indices[index + i] - full.first_vertex];
+      flat[i] = {p[i].x(), p[i].y(), 1.0};
+      corners[i].column = p[i].x();
+      corners[i].row = p[i].y();
+      corners[i].depth = 1.0;
+    }
+    ScreenTriangle triangle{};
+    if (!NearnessPlane(p, triangle)) continue;
+    ClipTriangle(corners, 0.5, polygon);
+    HolePlanes holes;
+    if (batch.holes) {
+      const base::Vec2 about = p[0].head<2>().array().round().max(0.0).min(kShadowSide);
+      holes = HolesOf(scene, alpha, static_cast<std::size_t>(batch.material),
+                      {scene.indices[index], scene.indices[index + 1], scene.indices[index + 2]}, flat, about);
+    }
+    DrawPolygon(kernels, target, polygon, batch.holes ? &holes : nullptr, triangle);
+  }
+}
+
+/// Nearness in the map's words. Rounded away from the sun: the part of a step that is cut off goes to the light.
+std::uint16_t WordOf(float nearness) {
+  return static_cast<std::uint16_t>(65535 - static_cast<std::int32_t>(nearness * 65535.0F) - 32768);
 }
 
 /// The rows of one row of tiles, from nearness; the map's rim stays at 65535: what lies beyond the map looks up its
@@ -68,9 +98,7 @@ void CopyTiles(const Target& target, int tile_row, ShadowMap& map) {
       const float* row = target.inverse_depth + (std::ptrdiff_t{tile_row} * target.tiles_x + tile) * kTile * kTile +
                          std::ptrdiff_t{y} * kTile;
       for (int x = 0; x < kTile; ++x) {
-        // Rounded away from the sun: the part of a step that is cut off goes to the light.
-        const std::int32_t nearness = static_cast<std::int32_t>(row[x] * 65535.0F);
-        out[tile * kTile + x] = static_cast<std::uint16_t>(65535 - nearness - 32768);
+        out[tile * kTile + x] = WordOf(row[x]);
       }
     }
   }
@@ -87,29 +115,28 @@ void ClearRim(ShadowMap& map) {
   }
 }
 
+/// Takes what is nearer to the sun into the map; the target's pixel (0, 0) is the region's first texel.
+void Merge(const Target& target, const internal::ShadowRegion& region, ShadowMap& map) {
+  for (int y = region.y0; y <= region.y1; ++y) {
+    std::uint16_t* row = map.words.data() + std::ptrdiff_t{y} * map.pitch;
+    const int ty = y - region.y0;
+    for (int x = region.x0; x <= region.x1; ++x) {
+      const int tx = x - region.x0;
+      const int tile = ty / kTile * target.tiles_x + tx / kTile;
+      const float nearness = target.inverse_depth[tile * kTile * kTile + ty % kTile * kTile + tx % kTile];
+      const auto word = static_cast<std::int16_t>(WordOf(nearness));
+      if (word < static_cast<std::int16_t>(row[x])) row[x] = static_cast<std::uint16_t>(word);
+    }
+  }
+}
+
 }  // namespace
 
-ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const Kernels& kernels) {
+ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const PackedTextures& alpha, const Kernels& kernels) {
   VisibilityBuffer buffer;
   const Target target = buffer.Clear(kShadowSide, kShadowSide, 0.0F, false);
-  const std::vector<base::Vec3> places = PlacesInMap(scene);
-  std::vector<Corner> polygon;
   for (const internal::Batch& batch : scene.statics) {
-    const internal::Level& full = batch.levels[0];
-    for (std::size_t index = full.first_index; index < std::size_t{full.first_index} + full.index_count; index += 3) {
-      std::array<base::Vec3, 3> p;
-      std::array<Corner, 3> corners;
-      for (std::size_t i = 0; i < 3; ++i) {
-        p[i] = places[scene.indices[index + i]];
-        corners[i].column = p[i].x();
-        corners[i].row = p[i].y();
-        corners[i].depth = 1.0;
-      }
-      ScreenTriangle triangle{};
-      if (!NearnessPlane(p, triangle)) continue;
-      ClipTriangle(corners, 0.5, polygon);
-      DrawPolygon(kernels, target, polygon, triangle);
-    }
+    DrawBatch(scene, batch, scene.shadow.texture_from_world, alpha, kernels, base::Vec2::Zero(), target);
   }
   ShadowMap map;
   constexpr int kPadding = 32;  // words: rows that follow each other do not fall into the same cache sets
@@ -118,6 +145,34 @@ ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const Kernels& ker
   for (int row = 0; row < target.tiles_y; ++row) CopyTiles(target, row, map);
   ClearRim(map);
   return map;
+}
+
+const ShadowMap& MoverShadows::Place(const internal::SceneGeometry& scene, const ShadowMap& statics,
+                                     const PackedTextures& alpha, const Kernels& kernels,
+                                     std::span<const base::Transform> X_WM) {
+  if (map_.words.empty()) map_ = statics;
+  for (const internal::ShadowRegion& region : regions_) {
+    for (int y = region.y0; y <= region.y1; ++y) {
+      const std::ptrdiff_t at = std::ptrdiff_t{y} * map_.pitch + region.x0;
+      std::copy_n(statics.words.begin() + at, region.x1 - region.x0 + 1, map_.words.begin() + at);
+    }
+  }
+  regions_.clear();
+  for (std::size_t i = 0; i < X_WM.size(); ++i) {
+    const internal::Batch& mover = scene.movers[i];
+    Eigen::Matrix4d texture_from_mover = Eigen::Matrix4d::Identity();
+    texture_from_mover.topLeftCorner<3, 3>() = X_WM[i].R();
+    texture_from_mover.topRightCorner<3, 1>() = X_WM[i].p;
+    texture_from_mover = (scene.shadow.texture_from_world * texture_from_mover).eval();
+    const internal::ShadowRegion region = internal::RegionOf(texture_from_mover, mover.low, mover.high);
+    if (region.IsEmpty()) continue;
+    VisibilityBuffer buffer;
+    const Target target = buffer.Clear(region.x1 - region.x0 + 1, region.y1 - region.y0 + 1, 0.0F, false);
+    DrawBatch(scene, mover, texture_from_mover, alpha, kernels, {region.x0, region.y0}, target);
+    Merge(target, region, map_);
+    regions_.push_back(region);
+  }
+  return map_;
 }
 
 }  // namespace alula::render::raster

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "render/internal/scene_geometry.h"
 #include "render/raster/kernels.h"
+#include "render/raster/packed_textures.h"
 
 namespace alula::render::raster {
 
@@ -17,6 +19,18 @@ struct ShadowMap {
 };
 
 /// Draws the full levels of all statics; both faces cast.
-ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const Kernels& kernels);
+ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const PackedTextures& alpha, const Kernels& kernels);
+
+/// A map of one's own with the movers' shadows in it: where one has been or is it is drawn anew, and nowhere else.
+class MoverShadows {
+ public:
+  /// The movers stand at X_WM, in their order.
+  const ShadowMap& Place(const internal::SceneGeometry& scene, const ShadowMap& statics, const PackedTextures& alpha,
+                         const Kernels& kernels, std::span<const base::Transform> X_WM);
+
+ private:
+  ShadowMap map_;
+  std::vector<internal::ShadowRegion> regions_;
+};
 
 }  // namespace alula::render::raster

@@ -7,6 +7,7 @@
 #include <set>
 #include <vector>
 
+#include "base/config.h"
 #include "base/error.h"
 #include "worlds/world_hash.h"
 
@@ -283,6 +284,74 @@ TEST(Courtyard, AMissingPropIsNamed) {
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("worlds/assets/nothing.obj: there is no such mesh file"),
               std::string::npos);
+  }
+}
+
+TEST(Courtyard, EveryObjectSaysWhatItIs) {
+  const World world = MakeCourtyard(Small(), 2);
+  const auto expected = [](const std::string& name) {
+    const std::pair<const char*, SemanticClass> beginnings[] = {
+        {"ground/", SemanticClass::kGround}, {"wall/", SemanticClass::kWall}, {"gate", SemanticClass::kGate},
+        {"pad", SemanticClass::kPad},        {"tree", SemanticClass::kTree},
+    };
+    for (const auto& [beginning, semantic] : beginnings) {
+      if (name.starts_with(beginning)) return semantic;
+    }
+    // Of the blockers, conifers alone have crowns and trunks.
+    const bool tree = name.find("/crown") != std::string::npos || name.find("/trunk") != std::string::npos;
+    return tree ? SemanticClass::kTree : SemanticClass::kObstacle;
+  };
+  std::set<SemanticClass> met;
+  for (const Object& object : world.objects) {
+    EXPECT_EQ(NameOf(object.semantic), NameOf(expected(object.name))) << object.name;
+    met.insert(object.semantic);
+  }
+  EXPECT_EQ(met.size(), 6U);  // all but sky and vehicle
+}
+
+CourtyardConfig FromYaml(const std::string& text) {
+  return base::ReadConfig<CourtyardConfig>(base::YamlDocument::Parse(text, "courtyard.yaml", {}), 1);
+}
+
+TEST(Courtyard, NightFogAndLampsAreKeys) {
+  const CourtyardConfig config = FromYaml(
+      "{texture_size: 32, sunlight: 0, skylight: 0.01, fog: {visibility: 40 m, colour: [0.1, 0.1, 0.12]},\n"
+      " lamps: [{position: [1 m, 2 m, 3 m], intensity: 30, range: 12 m}, {position: [4 m, 0 m, 3 m], cone: 40 deg, "
+      "direction: [0, "
+      "0, -1]}]}");
+  const World night = MakeCourtyard(config, 2);
+  EXPECT_EQ(night.light.sun, 0.0F);
+  EXPECT_FLOAT_EQ(night.light.sky_brightness, 0.1F);
+  ASSERT_TRUE(night.light.fog.has_value());
+  EXPECT_EQ(night.light.fog->visibility, 40.0);
+  ASSERT_EQ(night.light.lamps.size(), 2U);
+  EXPECT_EQ(night.light.lamps[0].position, Vec3(1, 2, 3));
+  EXPECT_NEAR(night.light.lamps[1].cone, 0.698132, 1e-6);
+  // They are part of what the world is; the rest of it is the same as by day.
+  const World day = MakeCourtyard(Small(), 2);
+  EXPECT_NE(Digest(night), Digest(day));
+  World again = night;
+  again.light = day.light;
+  EXPECT_EQ(Digest(again), Digest(day));
+}
+
+TEST(Courtyard, WrongFogAndLampsAreBadInput) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"{fog: {visibility: -5 m}}", "fog.visibility"},
+      {"{fog: {colour: [0.1, 2, 0]}}", "colour"},
+      {"{lamps: [{cone: 4 rad}]}", "lamps.0.cone"},
+      {"{lamps: [{direction: [0, 0, 0]}]}", "direction"},
+      {"{lamps: [{intensity: -1}]}", "lamps.0.intensity"},
+      {"{lamps: [{range: 0 m}]}", "lamps.0.range"},
+      {"{skylight: -1}", "skylight"},
+  };
+  for (const auto& [text, key] : wrong) {
+    try {
+      FromYaml(text);
+      ADD_FAILURE() << text;
+    } catch (const base::InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
+    }
   }
 }
 
