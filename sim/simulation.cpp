@@ -38,7 +38,7 @@ Simulation::Simulation(SimulationParts parts)
       physics_(std::make_unique<PhysicsWorld>(*parts_.world, parts_.vehicle->body(), StartState(parts_),
                                               parts_.config.surface)),
       sensors_(parts_.sensors, parts_.vehicle->body(), parts_.config.step, parts_.seed, parts_.vehicle_id,
-               parts_.renderer.get(), parts_.workers),
+               parts_.renderer.get(), parts_.workers, parts_.world->light),
       autopilot_imu_(parts_.autopilot_sensors.imu, parts_.config.step, parts_.seed,
                      parts_.vehicle_id + "/autopilot.imu"),
       autopilot_barometer_(parts_.autopilot_sensors.barometer, parts_.seed, parts_.vehicle_id + "/autopilot.barometer"),

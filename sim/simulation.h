@@ -37,7 +37,7 @@ struct SimulationParts {
   std::vector<Observer*> observers;                  // in this order; they outlive the simulation
   std::string vehicle_id = "vehicle0";
   std::uint64_t seed = 1;
-  int workers = 1;           // 2 and more: pictures are drawn on a thread of their own
+  int workers = 1;           // 2 and more: pictures are drawn on two threads of their own
   bool measure_time = true;  // keep stage times (clocks are read, nothing depends on them)
 };
 

@@ -34,6 +34,12 @@ auto LoadNamed(const base::Origin& origin, const Load& load) {
   }
 }
 
+/// What makes two pictures the same: the file, or else the pattern.
+using Picture = std::pair<SceneMaterial::Coat, std::string>;
+Picture PictureOf(const SceneMaterial& material) {
+  return {material.texture.empty() ? material.pattern : SceneMaterial::Coat::kPlain, material.texture};
+}
+
 /// Builds one world; remembers files and materials that were met before.
 class SceneBuilder {
  public:
@@ -140,7 +146,7 @@ class SceneBuilder {
   int MaterialOf(const SceneMaterial& wanted) {
     const std::vector<double> colour(wanted.colour.data(), wanted.colour.data() + 3);
     const auto next = static_cast<int>(world_.materials.size());
-    const auto [known, is_new] = materials_.try_emplace({colour, {wanted.pattern, wanted.texture}}, next);
+    const auto [known, is_new] = materials_.try_emplace({colour, PictureOf(wanted)}, next);
     if (is_new) {
       world_.materials.push_back({"material" + std::to_string(next), wanted.colour.cast<float>(), TextureOf(wanted)});
     }
@@ -148,23 +154,21 @@ class SceneBuilder {
   }
 
   std::shared_ptr<const geometry::Texture> TextureOf(const SceneMaterial& wanted) {
-    const bool plain = wanted.pattern == SceneMaterial::Coat::kPlain;
-    if (plain && wanted.texture.empty()) return nullptr;
-    std::shared_ptr<const geometry::Texture>& texture = textures_[{wanted.pattern, wanted.texture}];
+    const bool own = wanted.texture.empty();
+    if (own && wanted.pattern == SceneMaterial::Coat::kPlain) return nullptr;
+    std::shared_ptr<const geometry::Texture>& texture = textures_[PictureOf(wanted)];
     if (texture != nullptr) return texture;
-    if (plain) {
-      texture = LoadNamed(wanted.texture_origin, [&] {
-        return std::make_shared<const geometry::Texture>(geometry::LoadTexture(wanted.texture));
-      });
-    } else {
+    if (own) {
       const int pattern = static_cast<int>(wanted.pattern) - 1;
       texture = MakeTexture(static_cast<Pattern>(pattern), {}, config_.texture_size, seed_,
                             "scene" + std::to_string(pattern));
+    } else {
+      texture = LoadNamed(wanted.texture_origin, [&] {
+        return std::make_shared<const geometry::Texture>(geometry::LoadTexture(wanted.texture));
+      });
     }
     return texture;
   }
-
-  using Picture = std::pair<SceneMaterial::Coat, std::string>;
 
   const SceneConfig& config_;
   std::uint64_t seed_;

@@ -31,7 +31,7 @@ struct SceneMaterial {
 
   base::Vec3 colour = base::Vec3::Ones();  // red, green, blue from 0 to 1
   Coat pattern = Coat::kPlain;
-  std::string texture{};       // PNG file; empty: none
+  std::string texture{};       // PNG file in place of the pattern; empty: none
   double texture_scale = 2.0;  // m that one period covers; a mesh's own texture coordinates are divided by it
   base::Origin texture_origin{};
 };

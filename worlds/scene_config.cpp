@@ -27,13 +27,9 @@ void Describe(base::Description& d, SceneMaterial& c) {
           {.meaning = "a picture of our own",
            .choices = {"plain", "brick", "plaster", "concrete", "rubble", "paving", "gravel", "wood", "bark", "foliage",
                        "signal", "pad"}});
-  d.Field("texture", c.texture, {.meaning = "a PNG file instead", .is_path = true, .origin = &c.texture_origin});
+  d.Field("texture", c.texture,
+          {.meaning = "a PNG file in place of the pattern", .is_path = true, .origin = &c.texture_origin});
   Length(d, "texture_scale", c.texture_scale, "what one period of the picture covers");
-  d.Check("texture", [&c] {
-    return c.texture.empty() || c.pattern == SceneMaterial::Coat::kPlain
-               ? std::string()
-               : std::string("stands beside a pattern; give `pattern: plain` or leave the texture out");
-  });
 }
 
 void Describe(base::Description& d, SceneBox& c) {

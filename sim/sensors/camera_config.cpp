@@ -103,7 +103,7 @@ void Describe(base::Description& d, CameraConfig& c) {
   d.Field("read_out", c.read_out,
           {.unit = "s", .meaning = "from the middle of the exposure to the stack", .min = 0, .max = 10});
   d.Field("sees_vehicle", c.sees_vehicle, {.meaning = "the vehicle itself is drawn"});
-  d.Field("noise", c.noise, {.meaning = "of the pixels"});
+  Describe(d, static_cast<render::SensorEffects&>(c));
   d.Field("faults", c.faults, {.meaning = "what happens to frames on the way"});
   d.Check("fov", [&c] { return WrongOptics(c); });
   d.Check("read_out", [&c] { return WrongTimes(c); });

@@ -42,9 +42,10 @@ struct FrameFaultsConfig {
 };
 void Describe(base::Description& d, FrameFaultsConfig& c);
 
-/// One camera: what it sees, when, and with which faults. Mounted in the body frame, or in a gimbal's, looking along
-/// that frame's x axis where yaw, pitch and roll are 0.
-struct CameraConfig {
+/// One camera: what it sees, when, and with which faults; what its lens and sensor do to the light stands beside it
+/// (noise, vignetting, dirt, glare, gamma, …). Mounted in the body frame, or in a gimbal's, looking along that frame's
+/// x axis where yaw, pitch and roll are 0.
+struct CameraConfig : render::SensorEffects {
   stack::CameraKind kind = stack::CameraKind::kGrey;
   base::Rate rate{20, 1};
   int width = 640;                  // px
@@ -62,7 +63,6 @@ struct CameraConfig {
   base::Duration row_delay{};  // rolling shutter: from one row to the next; stamps are of the middle
   base::Duration read_out = base::Milliseconds(10);
   bool sees_vehicle = false;
-  render::PixelNoise noise;
   FrameFaultsConfig faults;
 };
 void Describe(base::Description& d, CameraConfig& c);

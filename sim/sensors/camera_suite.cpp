@@ -119,9 +119,11 @@ void AddCameras(const CamerasConfig& config, const std::string& vehicle, stack::
 }
 
 CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& calibration, std::uint64_t seed,
-                         std::vector<base::Transform> X_BP, std::vector<render::CameraRenderer*> renderers,
-                         bool threads)
-    : gimbal_configs_(config.gimbals),
+                         std::vector<base::Transform> X_BP, const worlds::Light& light,
+                         std::vector<render::CameraRenderer*> renderers, bool threads)
+    : X_BP_(std::move(X_BP)),
+      light_(light),
+      gimbal_configs_(config.gimbals),
       gimbal_calibrations_(calibration.gimbals),
       darkroom_(std::move(renderers), threads) {
   std::size_t number = 0;
@@ -129,7 +131,7 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
     exposures_.emplace_back(*config.stereo);
     const auto lens = std::make_shared<const render::Lens>(calibration.cameras[0].intrinsics);
     for (int eye = 0; eye < 2; ++eye) {
-      AddUnit(*config.stereo, calibration.cameras[number++], lens, EyePose(*config.stereo, eye), seed, X_BP);
+      AddUnit(*config.stereo, calibration.cameras[number++], lens, EyePose(*config.stereo, eye), seed);
       units_.back().meters = eye == 0;
     }
     units_.back().late = config.stereo->eye_offset;
@@ -138,13 +140,13 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
   for (const NamedCameraConfig& camera : config.cameras) {
     exposures_.emplace_back(camera);
     const auto lens = std::make_shared<const render::Lens>(calibration.cameras[number].intrinsics);
-    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera), seed, X_BP);
+    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera), seed);
     units_.back().meters = true;
   }
   for (const RgbdCameraConfig& camera : config.rgbd) {
     exposures_.emplace_back(camera);
     const auto lens = std::make_shared<const render::Lens>(calibration.cameras[number].intrinsics);
-    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera), seed, X_BP);
+    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera), seed);
     units_.back().meters = true;
     AddDepthUnit(camera, calibration.cameras[number++], seed);
   }
@@ -155,10 +157,9 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
 }
 
 void CameraSuite::AddUnit(const CameraConfig& config, const stack::CameraCalibration& calibration,
-                          std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC, std::uint64_t seed,
-                          const std::vector<base::Transform>& X_BP) {
+                          std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC, std::uint64_t seed) {
   const auto optics = std::make_shared<const Optics>(
-      Optics{config, calibration.intrinsics, std::move(lens), calibration.name, seed, X_BP});
+      MakeOptics(config, calibration.intrinsics, std::move(lens), calibration.name, seed, X_BP_, light_));
   Unit unit{.config = config,
             .calibration = calibration,
             .take = [optics](const Exposure& e, render::CameraRenderer& r) { return TakeImage(*optics, e, r); },

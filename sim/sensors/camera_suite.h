@@ -16,6 +16,7 @@
 #include "sim/sensors/gimbal.h"
 #include "sim/sensors/motion_history.h"
 #include "stack/interface/calibration.h"
+#include "worlds/world.h"
 
 namespace alula::sim {
 
@@ -40,7 +41,8 @@ class CameraSuite {
  public:
   /// `X_BP`: the vehicle's parts where SeesVehicle. `renderers` as Darkroom has them.
   CameraSuite(const CamerasConfig& config, const stack::Calibration& calibration, std::uint64_t seed,
-              std::vector<base::Transform> X_BP, std::vector<render::CameraRenderer*> renderers, bool threads);
+              std::vector<base::Transform> X_BP, const worlds::Light& light,
+              std::vector<render::CameraRenderer*> renderers, bool threads);
 
   void Settle(base::Time t, const vehicles::BodyState& state);
   void Integrate(base::Time t, const vehicles::BodyState& state, base::Duration dt);
@@ -89,8 +91,7 @@ class CameraSuite {
   };
 
   void AddUnit(const CameraConfig& config, const stack::CameraCalibration& calibration,
-               std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC, std::uint64_t seed,
-               const std::vector<base::Transform>& X_BP);
+               std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC, std::uint64_t seed);
   /// The depth camera of the colour camera that was added last.
   void AddDepthUnit(const RgbdCameraConfig& config, const stack::CameraCalibration& calibration, std::uint64_t seed);
   Instant At(const Unit& unit, base::Time t) const;
@@ -98,6 +99,8 @@ class CameraSuite {
   bool IsOver(const Unit& unit, const Opened& opened, base::Time now) const;
   std::optional<Frame> Close(std::size_t number, const Opened& opened);
 
+  std::vector<base::Transform> X_BP_;
+  worlds::Light light_;
   std::vector<Unit> units_;
   std::vector<ExposureControl> exposures_;
   std::vector<Gimbal> gimbals_;

@@ -1,6 +1,7 @@
 #include "sim/sensors/optics.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -88,7 +89,45 @@ render::Picture DrawExposure(const Optics& optics, const Exposure& exposure, ren
   return picture;
 }
 
+base::Transform MiddlePose(const Exposure& exposure) {
+  const Exposure::Slice& slice = exposure.slices[exposure.slices.size() / 2];
+  return slice.instants[slice.instants.size() / 2].X_WC;
+}
+
+/// The sun, where it may blind the lens, with the share of its disc (and of the haze about it: 2°) that nothing hides.
+std::vector<render::GlareLight> SunInView(const Optics& optics, const base::Transform& X_WC,
+                                          render::CameraRenderer& renderer) {
+  const worlds::Light& light = optics.light;
+  const render::Glare& glare = optics.config.glare;
+  if (!(glare.veil > 0.0) || !(light.sun > 0.0F)) return {};
+  const base::Vec3 to_sun_C = X_WC.q.conjugate() * light.to_sun_W.normalized();
+  if (to_sun_C.z() < std::cos(glare.reach)) return {};
+  constexpr int kSide = 9;
+  constexpr double kFocal = kSide / 0.035;  // px: 2° across
+  const base::Quat q_WS = X_WC.q * base::Quat::FromTwoVectors(base::Vec3::UnitZ(), to_sun_C);
+  const render::View towards{.X_WC = {q_WS, X_WC.p},
+                             .intrinsics = {kSide, kSide, kFocal, kFocal, kSide / 2, kSide / 2, {}},
+                             .draw_movers = optics.config.sees_vehicle};
+  render::DepthPicture depth;
+  renderer.Depth(towards, depth);
+  const auto open = std::count(depth.metres.begin(), depth.metres.end(), 0.0F);
+  if (open == 0) return {};
+  return {{to_sun_C, static_cast<double>(open) / (kSide * kSide)}};
+}
+
 }  // namespace
+
+Optics MakeOptics(const CameraConfig& config, const stack::CameraIntrinsics& intrinsics,
+                  std::shared_ptr<const render::Lens> lens, std::string name, std::uint64_t seed,
+                  std::vector<base::Transform> X_BP, const worlds::Light& light) {
+  if (!lens) lens = std::make_shared<const render::Lens>(intrinsics);
+  base::RollingHash key;
+  key.Add(seed);
+  key.Add(std::string_view(name));
+  const int channels = config.kind == stack::CameraKind::kColour ? 3 : 1;
+  auto sensor = std::make_shared<const render::ImageSensor>(config, intrinsics, channels, key.value());
+  return {config, intrinsics, std::move(lens), std::move(name), seed, std::move(X_BP), std::move(sensor), light};
+}
 
 void PlaceVehicle(const Optics& optics, const base::Transform& X_WB, render::CameraRenderer& renderer) {
   if (optics.X_BP.empty()) return;
@@ -98,9 +137,8 @@ void PlaceVehicle(const Optics& optics, const base::Transform& X_WB, render::Cam
 }
 
 stack::DepthImage TakeDepth(const DepthOptics& optics, const Exposure& exposure, render::CameraRenderer& renderer) {
-  const Exposure::Slice& slice = exposure.slices[exposure.slices.size() / 2];
-  const base::Transform& X_WC = slice.instants[slice.instants.size() / 2].X_WC;
-  const render::View view{.X_WC = X_WC * optics.X_CD, .intrinsics = optics.intrinsics, .draw_movers = false};
+  const render::View view{
+      .X_WC = MiddlePose(exposure) * optics.X_CD, .intrinsics = optics.intrinsics, .draw_movers = false};
   render::DepthPicture depth;
   render::Picture ambient;
   renderer.Depth(view, depth);
@@ -124,7 +162,10 @@ stack::DepthImage TakeDepth(const DepthOptics& optics, const Exposure& exposure,
 
 stack::Image TakeImage(const Optics& optics, const Exposure& exposure, render::CameraRenderer& renderer) {
   render::Picture picture = DrawExposure(optics, exposure, renderer);
-  render::ApplyPixelNoise(picture, KeyOf(optics.seed, optics.name, exposure.seq), optics.config.noise);
+  const std::vector<render::GlareLight> lights = SunInView(optics, MiddlePose(exposure), renderer);
+  const double brightness = Brightness(optics, exposure.setting);
+  optics.sensor->Apply(picture, KeyOf(optics.seed, optics.name, exposure.seq),
+                       {.gain = exposure.setting.gain, .brightness = brightness, .lights = lights});
 
   stack::Image image;
   image.format = picture.channels == 1 ? stack::PixelFormat::kGrey8 : stack::PixelFormat::kRgb8;

@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "render/camera_renderer.h"
+#include "render/image_sensor.h"
 #include "render/lens.h"
 #include "sim/sensors/exposure.h"
 #include "stack/interface/measurement.h"
+#include "worlds/world.h"
 
 namespace alula::sim {
 
@@ -21,7 +23,13 @@ struct Optics {
   std::string name;                          // of the sensor; keys the noise
   std::uint64_t seed = 1;                    // of the run
   std::vector<base::Transform> X_BP;         // the vehicle's parts, in the order of the renderer's movers
+  std::shared_ptr<const render::ImageSensor> sensor;
+  worlds::Light light;  // of the world: the sun may blind the lens
 };
+/// `lens`: of these intrinsics; null: one is made. Throws base::InputError as render::Lens and ImageSensor do.
+Optics MakeOptics(const CameraConfig& config, const stack::CameraIntrinsics& intrinsics,
+                  std::shared_ptr<const render::Lens> lens, std::string name, std::uint64_t seed,
+                  std::vector<base::Transform> X_BP, const worlds::Light& light);
 
 /// Draws an exposure and spoils it as the sensor does. Pure: the same arguments give the same bytes, on any thread,
 /// because the noise is keyed by (seed, name, seq).

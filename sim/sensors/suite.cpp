@@ -58,7 +58,8 @@ stack::Calibration TrueCalibration(const SensorsConfig& config, const vehicles::
 }
 
 SensorSuite::SensorSuite(const SensorsConfig& config, const vehicles::VehicleBody& body, base::Duration step,
-                         std::uint64_t seed, const std::string& vehicle, render::CameraRenderer* renderer, int workers)
+                         std::uint64_t seed, const std::string& vehicle, render::CameraRenderer* renderer, int workers,
+                         const worlds::Light& light)
     : config_(config), step_(step), battery_stream_(seed, vehicle + "/battery") {
   battery_clock_.rate = config.battery_rate;
   status_clock_.rate = config.status_rate;
@@ -80,8 +81,13 @@ SensorSuite::SensorSuite(const SensorsConfig& config, const vehicles::VehicleBod
     if (SeesVehicle(config)) {
       for (const vehicles::Part& part : body.parts) X_BP.push_back(part.X_BP);
     }
+    std::vector<render::CameraRenderer*> renderers{renderer};
+    if (workers >= 2 && renderer != nullptr) {
+      twin_ = renderer->Twin();
+      renderers.push_back(twin_.get());
+    }
     cameras_ = std::make_unique<CameraSuite>(config, TrueCalibration(config, body, vehicle), seed, std::move(X_BP),
-                                             std::vector<render::CameraRenderer*>{renderer}, workers >= 2);
+                                             light, std::move(renderers), workers >= 2);
   }
 }
 

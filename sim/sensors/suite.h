@@ -50,9 +50,10 @@ struct OwnReports {
 class SensorSuite {
  public:
   /// `renderer`: needed where there are cameras; made with the vehicle's parts as movers where SeesVehicle. `workers` ≥
-  /// 2: pictures are drawn on threads of their own.
+  /// 2: pictures are drawn on two threads of their own. `light`: of the world that the renderer draws.
   SensorSuite(const SensorsConfig& config, const vehicles::VehicleBody& body, base::Duration step, std::uint64_t seed,
-              const std::string& vehicle, render::CameraRenderer* renderer, int workers);
+              const std::string& vehicle, render::CameraRenderer* renderer, int workers,
+              const worlds::Light& light = {});
   ~SensorSuite();
 
   void Settle(const vehicles::BodyState& state);
@@ -91,6 +92,7 @@ class SensorSuite {
   std::optional<Imu> imu_;
   std::optional<Barometer> barometer_;
   std::optional<PositionReference> position_reference_;
+  std::unique_ptr<render::CameraRenderer> twin_;  // for the second thread; outlives the cameras
   std::unique_ptr<CameraSuite> cameras_;
   base::RandomStream battery_stream_;
   Clock imu_clock_, barometer_clock_, position_clock_, battery_clock_, status_clock_;

@@ -91,6 +91,72 @@ TEST(Command, BadInputIsOneLineAndExitsWithTwo) {
   EXPECT_FALSE(fs::exists(folder.path() / "runs"));
 }
 
+/// A scenario whose world has one object with this shape and material.
+std::string SceneOf(const std::string& shape, const std::string& material) {
+  return "extends: hover\nworld:\n  type: scene\n  objects:\n    - shape: " + shape + "\n      material: " + material +
+         "\n";
+}
+
+TEST(Command, BadMeshesAndTexturesAreOneLineAndExitWithTwo) {
+  const TemporaryFolder folder("scene");
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder.path() / name, std::ios::binary) << text;
+  };
+  write("broken.gltf", "{\"asset\":");
+  write("cut.glb", std::string("glTF\x02\0\0\0\xff\0\0\0", 12));
+  write("nan.obj", "v 0 0 0\nv 1 0 0\nv 0 nan 0\nf 1 2 3\n");
+  write("range.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n");
+  write("far.obj", "v 0 0 0\nv 1e30 0 0\n");
+  write("deep.gltf", std::string(1'000'000, '['));
+  write("empty.obj", "");
+  write("text.png", "no picture\n");
+  write("broken.png", "\x89PNG\r\n\x1a\n and then nothing");
+  const struct {
+    std::string shape;
+    std::string material;
+    std::string message;
+  } table[] = {
+      {"{type: mesh, file: none.obj}", "{}", "world.objects.0.shape.file: "},
+      {"{type: mesh, file: none.obj}", "{}", "none.obj: there is no such mesh file"},
+      {"{type: mesh, file: broken.gltf}", "{}", "broken.gltf: is no JSON"},
+      {"{type: mesh, file: cut.glb}", "{}", "cut.glb: is no GLB file"},
+      {"{type: mesh, file: nan.obj}", "{}", "nan.obj:3:9: the vertex is not finite"},
+      {"{type: mesh, file: range.obj}", "{}", "range.obj:4:7: there is no vertex 4"},
+      {"{type: mesh, file: far.obj}", "{}", "far.obj:2:10: the vertex lies more than 10 km"},
+      {"{type: mesh, file: deep.gltf}", "{}", "nested deeper than 64 levels"},
+      {"{type: mesh, file: empty.obj}", "{}", "the mesh file is empty"},
+      {"{type: mesh, file: /dev/zero}", "{}", "unknown mesh format"},
+      {"{type: sphere}", "{texture: none.png}", "world.objects.0.material.texture: "},
+      {"{type: sphere}", "{texture: none.png}", "none.png: there is no such texture file"},
+      {"{type: sphere}", "{texture: text.png}", "text.png: is no PNG file"},
+      {"{type: sphere}", "{texture: broken.png}", "broken.png: cannot be read as PNG"},
+      {"{type: sphere}", "{texture: /dev/zero}", "is no regular file"},
+  };
+  for (const auto& bad : table) {
+    write("s.yaml", SceneOf(bad.shape, bad.material));
+    const CommandResult run = Alula({"run", folder.path() / "s.yaml"}, {.directory = folder.path()});
+    EXPECT_EQ(run.exit_code, 2) << bad.message << '\n' << run.err;
+    EXPECT_NE(run.err.find("s.yaml:" + std::string(bad.shape.starts_with("{type: mesh") ? "5:" : "6:")),
+              std::string::npos)
+        << run.err;
+    EXPECT_NE(run.err.find(bad.message), std::string::npos) << "wanted: " << bad.message << "\nsaid: " << run.err;
+    EXPECT_EQ(std::count(run.err.begin(), run.err.end(), '\n'), 1) << run.err;
+  }
+  EXPECT_FALSE(fs::exists(folder.path() / "runs"));
+}
+
+TEST(Command, ASceneOfOnesOwnIsFlownAndItsRecordRunsAgain) {
+  const TemporaryFolder folder("own_scene");
+  const CommandResult run =
+      Alula({"run", "docs/examples/own_scene/own_scene.yaml", "--json", "--out", folder.path() / "r"});
+  ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
+  const CommandResult again =
+      Alula({"run", folder.path() / "r" / "scenario.yaml", "--json", "--out", folder.path() / "s"},
+            {.directory = folder.path()});
+  ASSERT_EQ(again.exit_code, 0) << again.out << again.err;
+  EXPECT_EQ(nlohmann::json::parse(again.out)["digest"], nlohmann::json::parse(run.out)["digest"]);
+}
+
 TEST(Command, HelpOfEveryVerb) {
   for (const char* verb : {"run", "export", "list", "check", "bench"}) {
     const CommandResult help = Alula({verb, "--help"});

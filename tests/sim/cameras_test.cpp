@@ -414,7 +414,7 @@ TEST_P(Shutter, ShowsWhatSixtyFourSubFramesShow) {
     config.row_delay = base::Microseconds(60);
   }
   const stack::CameraIntrinsics k = IntrinsicsOf(config);
-  const Optics optics{config, k, std::make_shared<const render::Lens>(k), "camera", 1, {}};
+  const Optics optics = MakeOptics(config, k, nullptr, "camera", 1, {}, world.light);
   const auto plan = [&](base::Time t, double step) {
     return PlanExposure(config, optics.intrinsics.fx, {config.exposure, 1.0}, t, ShakingFlight, step);
   };
