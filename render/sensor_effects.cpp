@@ -4,6 +4,7 @@
 #include "render/internal/sensor_kernel.h"
 
 namespace alula::render {
+
 void Describe(base::Description& d, PixelNoise& c) {
   d.Field("read_sigma", c.read_sigma,
           {.unit = "1", .meaning = "standard deviation of a pixel in the dark, grey levels", .min = 0.0, .max = 64.0});

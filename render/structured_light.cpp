@@ -1,7 +1,9 @@
 #include "render/structured_light.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 
 namespace alula::render {
 namespace {
@@ -33,17 +35,24 @@ class WindowNoise {
       }
     }
   }
-  double At(int u, int v) const {
-    const double x = static_cast<double>(u % kCell) / kCell, y = static_cast<double>(v % kCell) / kCell;
-    const double weights[4] = {(1 - x) * (1 - y), x * (1 - y), (1 - x) * y, x * y};
-    const std::size_t node =
-        static_cast<std::size_t>(v / kCell) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(u / kCell);
-    const std::size_t below = node + static_cast<std::size_t>(columns_);
-    const double sum = weights[0] * nodes_[node] + weights[1] * nodes_[node + 1] + weights[2] * nodes_[below] +
-                       weights[3] * nodes_[below + 1];
-    double squares = 0;
-    for (const double w : weights) squares += w * w;
-    return sum / std::sqrt(squares);
+  void Row(int v, std::vector<double>& row) const {
+    const double y = static_cast<double>(v % kCell) / kCell;
+    std::array<std::array<double, 4>, kCell> weights{};  // of the nodes about a pixel, by its column in the cell
+    for (int i = 0; i < kCell; ++i) {
+      const double x = static_cast<double>(i) / kCell;
+      const double squares = ((1 - x) * (1 - x) + x * x) * ((1 - y) * (1 - y) + y * y);
+      const double unit = 1.0 / std::sqrt(squares);
+      weights[static_cast<std::size_t>(i)] = {(1 - x) * (1 - y) * unit, x * (1 - y) * unit, (1 - x) * y * unit,
+                                              x * y * unit};
+    }
+    const double* upper = nodes_.data() + static_cast<std::ptrdiff_t>(v / kCell) * columns_;
+    const double* lower = upper + columns_;
+    for (std::size_t u = 0; u < row.size(); u += kCell, ++upper, ++lower) {
+      for (std::size_t i = 0; i < kCell && u + i < row.size(); ++i) {
+        const std::array<double, 4>& w = weights[i];
+        row[u + i] = w[0] * upper[0] + w[1] * upper[1] + w[2] * lower[0] + w[3] * lower[1];
+      }
+    }
   }
 
  private:
@@ -68,19 +77,24 @@ void FindShadows(const float* row, int width, double focal_baseline, std::vector
   }
 }
 
-/// Tangent of the angle between ray and normal about a pixel, from its neighbours' depths; infinite at edges of sight.
-double Slope(const DepthPicture& depth, int u, int v, double focal) {
-  const auto at = [&](int x, int y) {
-    return static_cast<double>(depth.metres[static_cast<std::size_t>(y) * static_cast<std::size_t>(depth.width) +
-                                            static_cast<std::size_t>(x)]);
-  };
-  const double z = at(u, v);
-  const int left = std::max(u - 1, 0), right = std::min(u + 1, depth.width - 1);
-  const int up = std::max(v - 1, 0), down = std::min(v + 1, depth.height - 1);
-  const double neighbours[4] = {at(left, v), at(right, v), at(u, up), at(u, down)};
-  double steepest = 0.0;
-  for (const double other : neighbours) steepest = std::max(steepest, other > 0.0 ? std::abs(other - z) : 1e30);
-  return steepest * focal / z;
+/// The largest step of depth from a pixel to its neighbours, m; infinite at edges of sight.
+double SteepestStep(const DepthPicture& depth, int u, int v) {
+  const float* here = depth.metres.data() + static_cast<std::ptrdiff_t>(v) * depth.width + u;
+  const std::array<float, 4> neighbours = {here[u > 0 ? -1 : 0], here[u + 1 < depth.width ? 1 : 0],
+                                           here[v > 0 ? -depth.width : 0],
+                                           here[v + 1 < depth.height ? depth.width : 0]};
+  float steepest = 0.0F;
+  for (const float other : neighbours) {
+    steepest = std::max(steepest, other > 0.0F ? std::abs(other - *here) : std::numeric_limits<float>::infinity());
+  }
+  return static_cast<double>(steepest);
+}
+
+/// The first whole number from `edge` on, held within [0, size].
+int FirstCentre(double edge, int size) {
+  const double held = std::clamp(edge, 0.0, static_cast<double>(size));
+  const int below = static_cast<int>(held);
+  return below + (below < held ? 1 : 0);
 }
 
 }  // namespace
@@ -107,25 +121,32 @@ std::vector<std::uint16_t> MeasureDepth(const DepthPicture& depth, double focal,
                                         const std::vector<std::uint8_t>* glass, const StructuredLight& sensor,
                                         std::uint64_t key) {
   const double focal_baseline = focal * sensor.baseline;
-  const double steepest = std::tan(sensor.grazing);
+  const double steepest = std::tan(sensor.grazing) / focal;  // step over depth: tangent of the angle of ray and normal
+  const double drowned = sensor.blinding * 255.0;
   const auto hole = static_cast<std::uint64_t>(sensor.holes * 4294967296.0);
-  const WindowNoise noise(Mix(key, 1, 0), depth.width, depth.height);
+  const WindowNoise window_noise(Mix(key, 1, 0), depth.width, depth.height);
   const std::uint64_t hole_key = Mix(key, 2, 0);
+  const auto width = static_cast<std::size_t>(depth.width);
   std::vector<std::uint16_t> millimetres(depth.metres.size(), 0);
-  std::vector<std::uint8_t> lit(static_cast<std::size_t>(depth.width));
+  std::vector<std::uint8_t> lit(width);
+  std::vector<double> noise(width);
   for (int v = 0; v < depth.height; ++v) {
-    const std::size_t row = static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width);
+    const std::size_t row = static_cast<std::size_t>(v) * width;
     FindShadows(depth.metres.data() + row, depth.width, focal_baseline, lit);
+    window_noise.Row(v, noise);
+    bool lost = false;
     for (int u = 0; u < depth.width; ++u) {
       const std::size_t i = row + static_cast<std::size_t>(u);
+      if (u % 2 == 0) {  // a spot is 2×2 px
+        lost = (Mix(hole_key, static_cast<std::uint64_t>(u / 2), static_cast<std::uint64_t>(v / 2)) >> 32) < hole;
+      }
       const auto z = static_cast<double>(depth.metres[i]);
-      if (lit[static_cast<std::size_t>(u)] == 0 || z < sensor.nearest || z > sensor.farthest) continue;
+      if (lost || lit[static_cast<std::size_t>(u)] == 0 || z < sensor.nearest || z > sensor.farthest) continue;
       if (glass != nullptr && (*glass)[i] != 0) continue;
-      if (ambient != nullptr && ambient->bytes[i] >= sensor.blinding * 255.0) continue;
-      const std::uint64_t spot = Mix(hole_key, static_cast<std::uint64_t>(u / 2), static_cast<std::uint64_t>(v / 2));
-      if ((spot >> 32) < hole || Slope(depth, u, v, focal) > steepest) continue;
-      const double disparity = focal_baseline / z + sensor.disparity_noise * noise.At(u, v);
-      const double rounded = sensor.disparity_step * std::round(disparity / sensor.disparity_step);
+      if (ambient != nullptr && ambient->bytes[i] >= drowned) continue;
+      if (SteepestStep(depth, u, v) > steepest * z) continue;
+      const double disparity = focal_baseline / z + sensor.disparity_noise * noise[static_cast<std::size_t>(u)];
+      const double rounded = sensor.disparity_step * std::floor(disparity / sensor.disparity_step + 0.5);
       const double measured = rounded > 0.0 ? 1000.0 * focal_baseline / rounded : 0.0;
       if (measured >= 0.5 && measured < 65535.0) millimetres[i] = static_cast<std::uint16_t>(measured + 0.5);
     }
@@ -138,29 +159,30 @@ std::vector<std::uint16_t> RegisterDepth(const std::vector<std::uint16_t>& milli
                                          const base::Transform& X_CD) {
   std::vector<std::uint16_t> out(static_cast<std::size_t>(other.width) * static_cast<std::size_t>(other.height), 0);
   const base::Mat3 R_CD = X_CD.R();
-  const auto project = [&](double u, double v, double z) {
-    const base::Vec3 p = R_CD * base::Vec3(z * (u - depth.cx) / depth.fx, z * (v - depth.cy) / depth.fy, z) + X_CD.p;
+  // A ray with unit depth through the edges of pixels is one part by column plus one by row.
+  std::vector<base::Vec3> columns;
+  for (int u = 0; u <= depth.width; ++u) columns.push_back(R_CD.col(0) * ((u - 0.5 - depth.cx) / depth.fx));
+  const auto of_row = [&](double v) -> base::Vec3 { return R_CD.col(1) * ((v - depth.cy) / depth.fy) + R_CD.col(2); };
+  const auto project = [&](const base::Vec3& ray, double z) {
+    const base::Vec3 p = z * ray + X_CD.p;
     return base::Vec3(other.fx * p.x() / p.z() + other.cx, other.fy * p.y() / p.z() + other.cy, p.z());
   };
   for (int v = 0; v < depth.height; ++v) {
-    for (int u = 0; u < depth.width; ++u) {
-      const std::uint16_t there = millimetres[static_cast<std::size_t>(v) * static_cast<std::size_t>(depth.width) +
-                                              static_cast<std::size_t>(u)];
-      if (there == 0) continue;
-      const double z = 1e-3 * there;
-      const base::Vec3 low = project(u - 0.5, v - 0.5, z), high = project(u + 0.5, v + 0.5, z);
-      if (!(low.z() > 0.0) || !(low.z() < 65.0)) continue;
+    const base::Vec3 upper = of_row(v - 0.5), lower = of_row(v + 0.5);
+    const std::uint16_t* row = millimetres.data() + static_cast<std::ptrdiff_t>(v) * depth.width;
+    for (std::size_t u = 0; u < static_cast<std::size_t>(depth.width); ++u) {
+      if (row[u] == 0) continue;
+      const double z = 1e-3 * row[u];
+      const base::Vec3 low = project(columns[u] + upper, z), high = project(columns[u + 1] + lower, z);
+      if (!(low.z() > 0.0) || !(high.z() > 0.0) || !(low.z() + high.z() < 130.0)) continue;
       const auto here = static_cast<std::uint16_t>(500.0 * (low.z() + high.z()) + 0.5);
       // Pixels whose centres the patch covers.
-      const int x0 = std::max(static_cast<int>(std::ceil(low.x())), 0);
-      const int y0 = std::max(static_cast<int>(std::ceil(low.y())), 0);
-      const int x1 = std::min(static_cast<int>(std::ceil(high.x())), other.width);
-      const int y1 = std::min(static_cast<int>(std::ceil(high.y())), other.height);
+      const int x0 = FirstCentre(low.x(), other.width), x1 = FirstCentre(high.x(), other.width);
+      const int y0 = FirstCentre(low.y(), other.height), y1 = FirstCentre(high.y(), other.height);
       for (int y = y0; y < y1; ++y) {
+        std::uint16_t* pixels = out.data() + static_cast<std::ptrdiff_t>(y) * other.width;
         for (int x = x0; x < x1; ++x) {
-          std::uint16_t& pixel =
-              out[static_cast<std::size_t>(y) * static_cast<std::size_t>(other.width) + static_cast<std::size_t>(x)];
-          if (pixel == 0 || here < pixel) pixel = here;
+          if (pixels[x] == 0 || here < pixels[x]) pixels[x] = here;
         }
       }
     }
