@@ -156,8 +156,16 @@ double Spacing(const std::vector<cv::Point2f>& corners) {
 
 std::optional<std::vector<Vec2>> FindBoard(const Frame& frame, const std::vector<Vec2>& expected) {
   const cv::Mat image(frame.height, frame.width, CV_8UC1, const_cast<std::uint8_t*>(frame.grey.data()));
+  // Squares of few pixels are not found; pixel u lies at 2 u + ½ of a picture twice as large.
+  constexpr int kSmall = 200;  // rows
+  const double scale = frame.height < kSmall ? 2.0 : 1.0;
+  cv::Mat enlarged = image;
+  if (scale > 1.0) cv::resize(image, enlarged, {}, scale, scale, cv::INTER_CUBIC);
   std::vector<cv::Point2f> corners;
-  if (!cv::findChessboardCorners(image, {Board::kColumns, Board::kRows}, corners)) return std::nullopt;
+  if (!cv::findChessboardCorners(enlarged, {Board::kColumns, Board::kRows}, corners)) return std::nullopt;
+  for (cv::Point2f& corner : corners) {
+    corner = (corner - cv::Point2f(1.0F, 1.0F) * static_cast<float>(0.5 * (scale - 1.0))) / scale;
+  }
   const int half = std::clamp(static_cast<int>(0.4 * Spacing(corners)), 2, 10);
   cv::cornerSubPix(image, corners, {half, half}, {-1, -1}, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 60, 1e-4});
   std::vector<Vec2> found;

@@ -31,7 +31,8 @@ vehicles::BodyState Drift(base::Time t, double turn, const Transform& X_BC) {
 /// The picture that the camera would take with as many sub-frames as there may be.
 stack::Image Reference(const Rig& rig, const sim::CameraConfig& config, const CameraGeometry& camera,
                        const Motion& motion, base::Time captured, render::CameraRenderer& renderer) {
-  const sim::Optics optics{config, camera.intrinsics, camera.name, rig.seed, {}};
+  const auto lens = std::make_shared<const render::Lens>(camera.intrinsics);
+  const sim::Optics optics{config, camera.intrinsics, lens, camera.name, rig.seed, {}};
   constexpr double kFinest = 1e-9;  // px: as many sub-frames as are allowed
   const auto at = [&](base::Time t) {
     const Transform X_WB = motion(t).X_WB;
