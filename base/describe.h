@@ -12,12 +12,20 @@
 #include <variant>
 #include <vector>
 
+#include "base/error.h"
 #include "base/frames.h"
 #include "base/time.h"
 
 namespace alula::base {
 
 class Description;
+
+/// Where a value stood in a file and the way to it ("world.objects.2.shape.file"), for errors that are found after
+/// reading: `throw InputError(origin.where, origin.path, "…")`. Empty where the value is a default.
+struct Origin {
+  SourcePosition where;
+  std::string path;
+};
 
 /// What a field is: unit in SI terms ("kg", "m/s", "rad", "rad/s/sqrt(Hz)", "1" for pure numbers), range, meaning.
 /// YAML may write any unit of the same dimension ("70 deg", "5 inch", "250 mm"); the value in memory is SI.
@@ -28,7 +36,8 @@ struct FieldInfo {
   double max = std::numeric_limits<double>::infinity();
   bool required = false;                    // no default: the file must give it
   std::vector<std::string_view> choices{};  // for strings and enums: the words allowed, in the order of the enum
-  bool is_path = false;  // a file name: a relative one starts at the folder of the YAML file that states it
+  bool is_path = false;      // a file name: a relative one starts at the folder of the YAML file that states it
+  Origin* origin = nullptr;  // of a text: the reader notes here where it found it
 };
 
 /// A config struct has one function, found by argument-dependent lookup:

@@ -8,7 +8,8 @@ std::string Compose(const SourcePosition& where, std::string_view key, std::stri
   std::string text;
   if (!where.file.empty()) {
     text += where.file;
-    if (where.line > 0) text += ":" + std::to_string(where.line) + ":" + std::to_string(where.column);
+    if (where.line > 0) text += ":" + std::to_string(where.line);
+    if (where.line > 0 && where.column > 0) text += ":" + std::to_string(where.column);
     text += ": ";
   }
   if (!key.empty()) {
@@ -16,6 +17,10 @@ std::string Compose(const SourcePosition& where, std::string_view key, std::stri
     text += ": ";
   }
   text += message;
+  // It may quote what a file says; a terminal gets one line of characters that print.
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
   return text;
 }
 

@@ -22,6 +22,16 @@ target_include_directories(alula_options SYSTEM INTERFACE ${EIGEN3_INCLUDE_DIRS}
 # A vector that nobody has set is zero, in every build: a forgotten one must not make two runs differ.
 target_compile_definitions(alula_options INTERFACE EIGEN_DONT_PARALLELIZE EIGEN_INITIALIZE_MATRICES_BY_ZERO)
 
+# libFuzzer programs (tests/fuzz): all of our code counts coverage and is watched by the sanitizers.
+option(ALULA_FUZZ "Build libFuzzer programs (clang only)" OFF)
+if(ALULA_FUZZ)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "ALULA_FUZZ needs clang: CXX=clang++ cmake …")
+  endif()
+  target_compile_options(alula_options INTERFACE -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all)
+  target_link_options(alula_options INTERFACE -fsanitize=address,undefined)
+endif()
+
 # alula_library(NAME SOURCES … LINKS … SYSTEM_INCLUDES …): one folder, one target, explicit dependencies.
 function(alula_library name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LINKS;PRIVATE_LINKS;SYSTEM_INCLUDES" ${ARGN})

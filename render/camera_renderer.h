@@ -56,6 +56,9 @@ class CameraRenderer {
   virtual void Grey(const View& view, Picture& out) = 0;
   virtual void Colour(const View& view, Picture& out) = 0;
   virtual void Depth(const View& view, DepthPicture& out) = 0;
+  /// A second renderer of the same scene, for another thread at the same time; what never changes is shared. Its movers
+  /// stand at identity until they are placed in it too. Throws as MakeRenderer does.
+  virtual std::unique_ptr<CameraRenderer> Twin() const = 0;
   /// "osmesa 22.3.6 llvmpipe …": goes into the numeric class.
   virtual std::string Description() const = 0;
 };

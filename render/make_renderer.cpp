@@ -1,6 +1,7 @@
 #include "base/error.h"
 #include "render/camera_renderer.h"
 #include "render/internal/gl_renderer.h"
+#include "render/plain_reference.h"
 #include "render/raster/raster_renderer.h"
 
 namespace alula::render {
@@ -22,6 +23,11 @@ std::unique_ptr<CameraRenderer> MakeRenderer(std::string_view maker, const world
     return std::make_unique<raster::RasterRenderer>(avx2 != nullptr ? *avx2 : raster::ScalarKernels(), world, movers);
   }
   return std::make_unique<internal::GlRenderer>(MakeContext(maker), world, movers, internal::GlRenderer::Options{});
+}
+
+std::unique_ptr<CameraRenderer> MakePlainReference(const worlds::World& world) {
+  constexpr internal::GlRenderer::Options kPlain{.cull = false, .levels = false, .shadows = false};
+  return std::make_unique<internal::GlRenderer>(internal::MakeOsMesaContext(), world, std::span<const Mover>{}, kPlain);
 }
 
 }  // namespace alula::render

@@ -12,7 +12,10 @@ struct Raw {
   std::vector<std::string> sets;
   std::uint64_t seed = 0;
   std::string out;
+  std::string format = "euroc";
 };
+
+const CLI::IsMember kFormats({"euroc", "tum"});
 
 base::Override ParseOverride(const std::string& text) {
   const std::size_t equals = text.find('=');
@@ -28,18 +31,45 @@ void AddRender(CLI::App& verb, CommandLine& line) {
       ->check(CLI::IsMember({"auto", "osmesa", "egl", "raster"}));
 }
 
+/// What all verbs that fly a scenario understand.
+void AddFlight(CLI::App& verb, CommandLine& line, Raw& raw) {
+  verb.add_option("scenario", raw.name, "a name of the catalog ('alula list') or a YAML file")->required();
+  verb.add_option("--seed", raw.seed, "of all random numbers (default: the scenario's, else 1)");
+  verb.add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
+  verb.add_option("--workers", line.workers, "threads inside the run; they change no result")->check(CLI::Range(1, 64));
+  AddRender(verb, line);
+}
+
 CLI::App* AddRun(CLI::App& app, CommandLine& line, Raw& raw) {
   CLI::App* run = app.add_subcommand("run", "fly a scenario, print its verdict, write runs/<scenario>/<seed>/");
-  run->add_option("scenario", raw.name, "a name of the catalog ('alula list') or a YAML file")->required();
-  run->add_option("--seed", raw.seed, "of all random numbers (default: the scenario's, else 1)");
-  run->add_option("--set", raw.sets, "path.to.key=value: override any key (may be repeated)")->take_all();
+  AddFlight(*run, line, raw);
   run->add_option("--out", raw.out, "folder of the run's files (default: runs/<scenario>/<seed>)");
-  run->add_option("--workers", line.workers, "threads inside the run; they change no result")->check(CLI::Range(1, 64));
-  AddRender(*run, line);
   run->add_flag("--video", line.video, "film the run into video.mp4 of its folder (1280x720, 30 pictures a second)");
+  run->add_option("--dataset", raw.format,
+                  "also write dataset/ into its folder: what the stack was given, and the truth, in EuRoC's layout or "
+                  "TUM's of RGB-D cameras (default: euroc)")
+      ->expected(0, 1)
+      ->type_name("[euroc|tum]")
+      ->check(kFormats);
   run->add_flag("--quiet", line.quiet, "print the last line only");
   run->add_flag("--json", line.json, "print verdict.json instead of the table");
   return run;
+}
+
+CLI::App* AddExport(CLI::App& app, CommandLine& line, Raw& raw) {
+  CLI::App* verb = app.add_subcommand(
+      "export",
+      "fly a scenario and write what its sensors said, and the truth, as a dataset; exit codes are those of run");
+  AddFlight(*verb, line, raw);
+  verb->add_option("--format", raw.format, "euroc (ASL layout: images, IMU) or tum (RGB-D); default: euroc")
+      ->check(kFormats);
+  verb->add_option("--out", raw.out, "folder of the dataset (default: datasets/<scenario>/<seed>)");
+  verb->add_flag("--quiet", line.quiet, "no progress, one line at the end");
+  return verb;
+}
+
+dataset::Format FormatOf(const std::string& word) {
+  return word == "tum" ? dataset::Format::kTum : dataset::Format::kEuroc;
 }
 
 /// `check FILES…` and `check sensors SCENARIO`: the files are required by hand, because CLI11 would want them of both.
@@ -72,6 +102,7 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
   app.require_subcommand(1);
   Raw raw;
   CLI::App* run = AddRun(app, line, raw);
+  CLI::App* dataset = AddExport(app, line, raw);
   CLI::App* list = app.add_subcommand("list", "name the scenarios, vehicles and worlds of the catalogs");
   list->add_flag("--json", line.json, "as JSON");
   const Check check = AddCheck(app, line, raw);
@@ -87,9 +118,10 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
     }
     throw base::InputError(std::string(e.what()) + " ('alula --help' shows how)");
   }
-  if (run->parsed()) {
-    line.verb = CommandLine::Verb::kRun;
+  if (run->parsed() || dataset->parsed()) {
+    line.verb = run->parsed() ? CommandLine::Verb::kRun : CommandLine::Verb::kExport;
     line.names = {raw.name};
+    if (dataset->parsed() || run->count("--dataset") > 0) line.dataset = FormatOf(raw.format);
   }
   if (list->parsed()) line.verb = CommandLine::Verb::kList;
   if (check.sensors->parsed()) {
@@ -101,7 +133,9 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
     line.verb = CommandLine::Verb::kCheck;
   }
   if (bench->parsed()) line.verb = CommandLine::Verb::kBench;
-  if (run->count("--seed") + check.files->count("--seed") + check.sensors->count("--seed") > 0) line.seed = raw.seed;
+  const std::size_t seeds =
+      run->count("--seed") + dataset->count("--seed") + check.files->count("--seed") + check.sensors->count("--seed");
+  if (seeds > 0) line.seed = raw.seed;
   if (!raw.out.empty()) line.out = raw.out;
   for (const std::string& text : raw.sets) line.overrides.push_back(ParseOverride(text));
   return std::nullopt;

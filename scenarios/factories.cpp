@@ -21,6 +21,7 @@ std::shared_ptr<const worlds::World> MakeWorld(const WorldConfig& config, std::u
       std::visit(Overloaded{
                      [&](const worlds::OpenGroundConfig& c) { return worlds::MakeOpenGround(c, seed); },
                      [&](const worlds::CourtyardConfig& c) { return worlds::MakeCourtyard(c, seed); },
+                     [&](const worlds::SceneConfig& c) { return worlds::MakeScene(c, seed); },
                  },
                  config));
 }

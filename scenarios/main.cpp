@@ -14,6 +14,7 @@
 #include "base/nearest.h"
 #include "bench/bench.h"
 #include "scenarios/check/sensor_checks.h"
+#include "scenarios/dataset/dataset_recorder.h"
 #include "scenarios/environment.h"
 #include "scenarios/internal/cli.h"
 #include "scenarios/progress.h"
@@ -40,25 +41,42 @@ void CatchInterrupts() {
   ::sigaction(SIGTERM, &action, nullptr);
 }
 
-int Run(const CommandLine& line) {
-  const Scenario scenario = LoadScenario(FindScenario(line.names.front()), line.overrides, line.seed);
+/// What run and export share.
+RunOptions OptionsOf(const CommandLine& line) {
   RunOptions options;
   options.workers = line.workers;
   options.render = line.render;
-  options.out = line.out ? *line.out : std::filesystem::path("runs") / scenario.name / std::to_string(scenario.seed);
   options.interrupt = &interrupted;
-  if (line.video) {
-    options.spectators.push_back(FilmTheRun(scenario.name + ", seed " + std::to_string(scenario.seed)));
-  }
-  Progress progress(scenario.name, LimitOf(scenario.config), !line.quiet && !line.json);
+  return options;
+}
+
+/// Flies with a progress bar.
+Verdict Fly(const Scenario& scenario, RunOptions& options, bool show) {
+  Progress progress(scenario.name, LimitOf(scenario.config), show);
   options.progress = [&progress](base::Time time) { progress.Show(time); };
   CatchInterrupts();
-  const Verdict verdict = RunScenario(scenario, options);
+  Verdict verdict = RunScenario(scenario, options);
   progress.Clear();
+  options.progress = nullptr;
   if (verdict.versions.at("cpu") != "avx2+fma") {
     std::fprintf(stderr,
                  "note: this processor lacks AVX2 or FMA; digests differ from those of processors that have them\n");
   }
+  return verdict;
+}
+
+int Run(const CommandLine& line) {
+  const Scenario scenario = LoadScenario(FindScenario(line.names.front()), line.overrides, line.seed);
+  RunOptions options = OptionsOf(line);
+  options.out = line.out ? *line.out : std::filesystem::path("runs") / scenario.name / std::to_string(scenario.seed);
+  if (line.video) {
+    options.spectators.push_back(FilmTheRun(scenario.name + ", seed " + std::to_string(scenario.seed)));
+  }
+  if (line.dataset) {
+    options.spectators.push_back(dataset::RecordDataset({*line.dataset, scenario.name, scenario.seed, std::nullopt},
+                                                        std::make_shared<dataset::DatasetSize>()));
+  }
+  const Verdict verdict = Fly(scenario, options, !line.quiet && !line.json);
   const std::string table = ToTable(verdict);
   if (line.json) {
     std::fputs(ToJson(verdict).c_str(), stdout);
@@ -67,6 +85,21 @@ int Run(const CommandLine& line) {
   } else {
     std::printf("%s  files in %s\n", table.c_str(), options.out->c_str());
   }
+  return ExitCode(verdict.outcome);
+}
+
+int Export(const CommandLine& line) {
+  const Scenario scenario = LoadScenario(FindScenario(line.names.front()), line.overrides, line.seed);
+  RunOptions options = OptionsOf(line);
+  const std::filesystem::path folder =
+      line.out ? *line.out : std::filesystem::path("datasets") / scenario.name / std::to_string(scenario.seed);
+  const auto size = std::make_shared<dataset::DatasetSize>();
+  options.spectators.push_back(dataset::RecordDataset({*line.dataset, scenario.name, scenario.seed, folder}, size));
+  const Verdict verdict = Fly(scenario, options, !line.quiet);
+  std::printf("%s: %.1f s, %lld images, %lld depth images, %lld inertial samples in %s (%s: %s)\n",
+              scenario.name.c_str(), size->span.Seconds(), static_cast<long long>(size->images),
+              static_cast<long long>(size->depth_images), static_cast<long long>(size->imu_samples), folder.c_str(),
+              Word(verdict.outcome), verdict.reason.c_str());
   return ExitCode(verdict.outcome);
 }
 
@@ -148,6 +181,8 @@ int Main(int argc, char** argv) {
   switch (line.verb) {
     case CommandLine::Verb::kRun:
       return Run(line);
+    case CommandLine::Verb::kExport:
+      return Export(line);
     case CommandLine::Verb::kList:
       return List(line);
     case CommandLine::Verb::kCheck:

@@ -164,7 +164,7 @@ void WriteFolder(const Scenario& scenario, const worlds::World& world, const Ver
   cast.folder->Write("timing.json", timing);
   for (const stack::StackFile& file : files) cast.folder->Write(file.name, file.bytes);
   cast.folder->Write("verdict.json", ToJson(verdict));
-  cast.folder->Commit({"map.bt", "video.mp4"});
+  cast.folder->Commit({"map.bt", "video.mp4", "dataset"});
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ fs::path SourceTree() { return ALULA_SOURCE_DIR; }
 constexpr const char* kKinds[] = {"scenario", "vehicle", "world"};  // in the order of Catalogs()
 
 void DescribeWorld(base::Description& d, WorldConfig& c) {
-  d.OneOf("world", c, {.meaning = "where it happens", .choices = {"open_ground", "courtyard"}});
+  d.OneOf("world", c, {.meaning = "where it happens", .choices = {"open_ground", "courtyard", "scene"}});
 }
 void DescribeVehicle(base::Description& d, VehicleConfig& c) {
   d.OneOf("vehicle", c, {.meaning = "what moves", .choices = {"quadrotor", "prescribed"}});

@@ -29,6 +29,7 @@
 #include "vehicles/quadrotor.h"
 #include "worlds/courtyard.h"
 #include "worlds/open_ground.h"
+#include "worlds/scene.h"
 
 namespace alula::scenarios {
 
@@ -38,7 +39,7 @@ inline void Describe(base::Description&, None&) {}
 
 // What a scenario can be made of. These lists, the words for them in scenario.cpp and the makers in factories.cpp are
 // the one place that names concrete worlds, vehicles, autopilots, stacks and criteria.
-using WorldConfig = std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig>;
+using WorldConfig = std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig, worlds::SceneConfig>;
 using VehicleConfig = std::variant<vehicles::QuadrotorConfig, vehicles::PrescribedConfig>;
 using AutopilotConfig = std::variant<None, vehicles::MulticopterAutopilotConfig>;
 using StackConfig = std::variant<None, stack::pilot::PositionRelayConfig, stack::pilot::VisualInertialConfig>;

@@ -29,6 +29,7 @@ struct StepView {
   const vehicles::VehicleModel& vehicle;
   const vehicles::Autopilot* autopilot = nullptr;
   const worlds::World& world;
+  ImuBias imu_bias;  // true, of the stack's IMU; zero where there is none
 };
 
 /// Looks at every step: recorders, criteria, pictures. It changes nothing in the loop.

@@ -60,7 +60,7 @@ void RunFolder::Write(std::string_view name, std::string_view text) const {
 void RunFolder::Commit(std::initializer_list<std::string_view> optional) {
   const fs::path verdict = "verdict.json";
   fs::remove(folder_ / verdict);
-  for (const std::string_view name : optional) fs::remove(folder_ / name);
+  for (const std::string_view name : optional) fs::remove_all(folder_ / name);
   for (const fs::directory_entry& entry : fs::directory_iterator(partial_)) {
     const fs::path name = entry.path().filename();
     if (name == verdict) continue;

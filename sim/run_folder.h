@@ -24,8 +24,9 @@ class RunFolder {
   std::filesystem::path PathOf(std::string_view name) const { return partial_ / name; }
   /// Writes a whole text file.
   void Write(std::string_view name, std::string_view text) const;
-  /// Replaces the files of an earlier run by those of this one; verdict.json goes first and comes back last. Files that
-  /// not every run makes are named in `optional`: one of an earlier run goes, so that what lies here is one run's.
+  /// Replaces the files of an earlier run by those of this one; verdict.json goes first and comes back last. Files and
+  /// folders that not every run makes are named in `optional`: one of an earlier run goes, so that what lies here is
+  /// one run's.
   void Commit(std::initializer_list<std::string_view> optional = {});
   const std::filesystem::path& folder() const { return folder_; }
 

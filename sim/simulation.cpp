@@ -146,7 +146,8 @@ std::optional<std::string> Simulation::StepObservers() {
                       .physics = *physics_,
                       .vehicle = *parts_.vehicle,
                       .autopilot = parts_.autopilot.get(),
-                      .world = *parts_.world};
+                      .world = *parts_.world,
+                      .imu_bias = sensors_.imu_bias()};
   std::optional<std::string> reason;
   for (Observer* observer : parts_.observers) {
     std::optional<std::string> wish = observer->Observe(view);

@@ -14,4 +14,10 @@ struct TruthWindow {
   vehicles::BodyState At(base::Time t) const;
 };
 
+/// What an IMU adds to its readings, in its own axes, besides white noise.
+struct ImuBias {
+  base::Vec3 gyro = base::Vec3::Zero();           // rad/s
+  base::Vec3 accelerometer = base::Vec3::Zero();  // m/s²
+};
+
 }  // namespace alula::sim

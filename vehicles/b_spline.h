@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "base/frames.h"
@@ -25,6 +26,14 @@ class QuinticSpline {
  private:
   std::vector<Point> control_;
 };
+
+/// The six basis functions that are not zero on a segment, and their derivatives by u, at t = u − segment in [0, 1]:
+/// entry j weighs control point segment + j, which lies above u = segment + j − 2 (its Greville abscissa).
+struct QuinticBasis {
+  std::array<double, 6> value{};
+  std::array<double, 6> slope{};
+};
+QuinticBasis QuinticBasisAt(double t);
 
 template <typename Point>
 Point QuinticSpline<Point>::Derivative(double u, int k) const {

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/error.h"
+#include "vehicles/file_motion.h"
 #include "vehicles/flatness.h"
 #include "vehicles/prescribed_motion.h"
 
@@ -28,15 +30,29 @@ FlatAttitude AttitudeFromSines(const SineAttitude& c, const MotionSample& s) {
 class PrescribedVehicle final : public VehicleModel {
  public:
   PrescribedVehicle(const PrescribedConfig& config, const std::string& name)
-      : config_(config), body_(LayOutQuadrotor(config.body).body), motion_(config.motion, name) {
+      : config_(config), body_(LayOutQuadrotor(config.body).body) {
     body_.prescribed = true;
+    if (const auto* file = std::get_if<FileMotion>(&config.motion)) {
+      if (!std::holds_alternative<ThrustAttitude>(config.attitude)) {
+        throw base::InputError(name + ": attitude: a motion of type file brings its own; leave the key out");
+      }
+      recorded_.emplace(*file, config.standstill);
+    } else {
+      formula_.emplace(config.motion, name);
+    }
   }
 
   const VehicleBody& body() const override { return body_; }
   Wrench Step(const BodyState&, const ActuatorCommand&, const Vec3&, base::Duration) override { return {}; }
 
   BodyState Prescribed(base::Time t) const override {
-    const MotionSample s = motion_.At(t.Seconds() - config_.standstill);
+    const double since = t.Seconds() - config_.standstill;
+    if (recorded_) {
+      const FlatAttitude attitude = recorded_->Attitude(since);
+      return {
+          .X_WB = {attitude.q_WB, recorded_->Position(since)}, .v_WB = recorded_->Velocity(since), .w_B = attitude.w_B};
+    }
+    const MotionSample s = formula_->At(since);
     const auto* sines = std::get_if<SineAttitude>(&config_.attitude);
     const FlatAttitude attitude =
         sines ? AttitudeFromSines(*sines, s) : AttitudeFromThrust(s.a, s.jerk, s.yaw, s.yaw_rate);
@@ -44,7 +60,8 @@ class PrescribedVehicle final : public VehicleModel {
   }
 
   std::optional<base::Time> PrescribedEnd() const override {
-    return base::Time{} + base::Seconds(config_.standstill + motion_.duration());
+    const double duration = recorded_ ? recorded_->duration() : formula_->duration();
+    return base::Time{} + base::Seconds(config_.standstill + duration);
   }
 
   stack::BatterySample Battery() const override {
@@ -55,7 +72,8 @@ class PrescribedVehicle final : public VehicleModel {
  private:
   PrescribedConfig config_;
   VehicleBody body_;
-  PrescribedMotion motion_;
+  std::optional<PrescribedMotion> formula_;  // one of the two
+  std::optional<FittedMotion> recorded_;
 };
 
 void Angle(base::Description& d, std::string_view name, double& value, std::string_view meaning) {
@@ -90,6 +108,23 @@ void Describe(base::Description& d, SineMotion& c) {
   d.Field("flight_time", c.flight_time, {.unit = "s", .meaning = "with both ramps", .min = 0.2, .max = 1e5});
 }
 
+void Describe(base::Description& d, FileMotion& c) {
+  d.Field("path", c.path,
+          {.meaning = "trajectory: TUM, or EuRoC's ground-truth CSV; what it is shows inside",
+           .required = true,
+           .is_path = true});
+  d.Field("knot_interval", c.knot_interval,
+          {.unit = "s", .meaning = "of the fitted splines; shorter follows quicker motion", .min = 0.01, .max = 10});
+  d.Field("position_rms", c.position_rms, {.unit = "m", .meaning = "largest residual of the fit", .min = 0});
+  d.Field("attitude_rms", c.attitude_rms, {.unit = "rad", .meaning = "largest residual of the fit", .min = 0});
+  d.Field("frame_position", c.frame_position,
+          {.unit = "m", .meaning = "in the body, of the frame whose poses the file gives (an IMU, say)"});
+  d.Field("frame_orientation", c.frame_orientation,
+          {.unit = "rad", .meaning = "in the body, of the frame whose poses the file gives: yaw, pitch, roll"});
+  d.Field("origin", c.origin, {.unit = "m", .meaning = "where the file's origin lies in the world"});
+  Angle(d, "yaw", c.yaw, "of the file's axes in the world");
+}
+
 void Describe(base::Description&, ThrustAttitude&) {}
 
 void Describe(base::Description& d, SineAttitude& c) {
@@ -100,9 +135,10 @@ void Describe(base::Description& d, SineAttitude& c) {
 }
 
 void Describe(base::Description& d, PrescribedConfig& c) {
-  d.Field("standstill", c.standstill, {.unit = "s", .meaning = "at rest before the motion begins", .min = 0});
-  d.OneOf("motion", c.motion, {.meaning = "where it goes", .choices = {"path", "sines"}});
-  d.OneOf("attitude", c.attitude, {.meaning = "how it tilts", .choices = {"thrust", "sines"}});
+  d.Field("standstill", c.standstill,
+          {.unit = "s", .meaning = "at rest before the motion begins", .min = 0, .max = 1e4});
+  d.OneOf("motion", c.motion, {.meaning = "where it goes", .choices = {"path", "sines", "file"}});
+  d.OneOf("attitude", c.attitude, {.meaning = "how it tilts (a file has its own)", .choices = {"thrust", "sines"}});
   d.Field("body", c.body, {.meaning = "the quadrotor that it looks like"});
 }
 

@@ -42,6 +42,25 @@ struct SineMotion {
 };
 void Describe(base::Description& d, SineMotion& c);
 
+/// Flies a recorded trajectory again: poses of some frame S of the vehicle (of its body where nothing else is said) in
+/// the file's world F, as TUM writes them (s, p, q x y z w) or EuRoC its ground truth (ns, p, q w x y z). Smooth
+/// splines are fitted (file_motion.h); the attitude is the file's, so `attitude` stays as it is.
+struct FileMotion {
+  std::string path;
+  /// s. Shorter follows quicker motion, longer lets less of the recording's noise into acceleration (∝
+  /// knot_interval⁻²): at 0.1 s motion up to 2 Hz is followed to 0.1 % and 1 mm of noise at 100 Hz gives 0.1 m/s².
+  double knot_interval = 0.1;
+  double position_rms = 0.01;                         // m: a fit that misses the file by more is refused
+  double attitude_rms = 0.008726646259971648;         // rad (0.5 deg), likewise
+  base::Vec3 frame_position = base::Vec3::Zero();     // p_BS, m
+  base::Vec3 frame_orientation = base::Vec3::Zero();  // of S in B: yaw, pitch, roll, rad
+  base::Vec3 origin = base::Vec3::Zero();             // p_WF, m: where the file's origin lies
+  double yaw = 0.0;                                   // rad: of the file's axes in the world
+};
+void Describe(base::Description& d, FileMotion& c);
+
+using MotionConfig = std::variant<PathMotion, SineMotion, FileMotion>;
+
 /// The thrust axis points along a + g, as a quadrotor's must (Mellinger and Kumar 2011, section III).
 struct ThrustAttitude {};
 void Describe(base::Description& d, ThrustAttitude& c);
@@ -57,14 +76,15 @@ void Describe(base::Description& d, SineAttitude& c);
 
 struct PrescribedConfig {
   double standstill = 3.0;  // s at rest before the motion begins
-  std::variant<PathMotion, SineMotion> motion;
+  MotionConfig motion;
   std::variant<ThrustAttitude, SineAttitude> attitude;
   QuadrotorConfig body;  // what it looks like
 };
 void Describe(base::Description& d, PrescribedConfig& c);
 
 /// A vehicle that is moved along a C⁴ trajectory: exact position, velocity, attitude and angular velocity at every
-/// instant. Actuator commands are ignored; the wrench is zero. Throws base::InputError for an empty motion.
+/// instant. Actuator commands are ignored; the wrench is zero. Throws base::InputError for an empty motion and for a
+/// trajectory file that cannot be followed.
 std::unique_ptr<VehicleModel> MakePrescribed(const PrescribedConfig& config, std::string name);
 
 }  // namespace alula::vehicles

@@ -73,7 +73,7 @@ std::vector<double> HeadingControlPoints(const std::vector<Vec3>& control) {
   return heading;
 }
 
-PrescribedMotion::PrescribedMotion(const std::variant<PathMotion, SineMotion>& config, const std::string& name) {
+PrescribedMotion::PrescribedMotion(const MotionConfig& config, const std::string& name) {
   if (const auto* path = std::get_if<PathMotion>(&config)) {
     double length = 0;
     for (std::size_t i = 1; i < path->waypoints.size(); ++i) {

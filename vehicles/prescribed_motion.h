@@ -1,7 +1,5 @@
 #pragma once
 
-#include <variant>
-
 #include "base/frames.h"
 #include "vehicles/b_spline.h"
 #include "vehicles/prescribed.h"
@@ -32,8 +30,9 @@ struct MotionSample {
 /// Where a prescribed motion is, t seconds after its standstill ended; at rest before and after.
 class PrescribedMotion {
  public:
-  /// Throws base::InputError, `name` first, for a path of less than two different points or a motion without terms.
-  PrescribedMotion(const std::variant<PathMotion, SineMotion>& config, const std::string& name);
+  /// `config`: a path or sines. Throws base::InputError, `name` first, for a path of less than two different points or
+  /// a flight time too short for its ramps.
+  PrescribedMotion(const MotionConfig& config, const std::string& name);
 
   double duration() const { return duration_; }  // s
   MotionSample At(double t) const;

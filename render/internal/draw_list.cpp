@@ -7,33 +7,39 @@
 namespace alula::render::internal {
 namespace {
 
-std::vector<DrawRun> Runs(std::span<const Batch> batches, std::span<const std::uint32_t> order, bool ignore_materials) {
+/// `level_of`: the level that a batch is drawn at.
+template <typename LevelOf>
+std::vector<DrawRun> Runs(std::span<const Batch> batches, std::span<const std::uint32_t> order, bool ignore_materials,
+                          const LevelOf& level_of) {
   std::vector<DrawRun> runs;
   for (const std::uint32_t i : order) {
     const Batch& batch = batches[i];
+    const Level& level = level_of(batch);
     if (runs.empty() || (!ignore_materials && runs.back().material != batch.material)) {
       runs.push_back({batch.material, {}, {}});
     }
-    runs.back().counts.push_back(static_cast<GLsizei>(batch.index_count));
+    runs.back().counts.push_back(static_cast<GLsizei>(level.index_count));
     runs.back().offsets.push_back(
-        reinterpret_cast<const void*>(std::uintptr_t{batch.first_index} * sizeof(std::uint32_t)));
+        reinterpret_cast<const void*>(std::uintptr_t{level.first_index} * sizeof(std::uint32_t)));
   }
   return runs;
 }
 
 }  // namespace
 
-std::vector<DrawRun> NearestFirst(std::span<const Batch> batches, const Frustum* frustum, const base::Vec3& eye_W,
-                                  bool ignore_materials) {
-  return Runs(batches, VisibleOrder(batches, frustum, eye_W), ignore_materials);
+std::vector<DrawRun> NearestFirst(std::span<const Batch> batches, const Frustum* frustum, const base::Vec3& eye,
+                                  double focal, bool ignore_materials) {
+  const Eigen::Vector3f at = eye.cast<float>();
+  return Runs(batches, VisibleOrder(batches, frustum, eye), ignore_materials,
+              [&](const Batch& batch) -> const Level& { return LevelFor(batch, at, focal); });
 }
 
 std::vector<DrawRun> AllRuns(std::span<const Batch> batches, bool ignore_materials) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < batches.size(); ++i) {
-    if (batches[i].index_count > 0) order.push_back(i);
+    if (batches[i].levels[0].index_count > 0) order.push_back(i);
   }
-  return Runs(batches, order, ignore_materials);
+  return Runs(batches, order, ignore_materials, [](const Batch& batch) -> const Level& { return batch.levels[0]; });
 }
 
 }  // namespace alula::render::internal

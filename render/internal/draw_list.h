@@ -16,12 +16,12 @@ struct DrawRun {
   std::vector<const void*> offsets;  // bytes into the index buffer
 };
 
-/// The batches that may be seen (all of them where `frustum` is null), nearest first. With `ignore_materials` they make
-/// one run (passes without textures).
-std::vector<DrawRun> NearestFirst(std::span<const Batch> batches, const Frustum* frustum, const base::Vec3& eye_W,
-                                  bool ignore_materials);
+/// The batches that may be seen (all of them where `frustum` is null), nearest first, each at its level for `eye` and
+/// `focal` (LevelFor). With `ignore_materials` they make one run (passes without textures).
+std::vector<DrawRun> NearestFirst(std::span<const Batch> batches, const Frustum* frustum, const base::Vec3& eye,
+                                  double focal, bool ignore_materials);
 
-/// All batches in their own order.
+/// All batches in their own order, at their full level.
 std::vector<DrawRun> AllRuns(std::span<const Batch> batches, bool ignore_materials);
 
 }  // namespace alula::render::internal

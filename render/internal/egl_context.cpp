@@ -119,7 +119,7 @@ EGLContext CreateContext(const EglApi& egl, EGLDisplay display, std::string& why
 
 class EglContext final : public GlContext {
  public:
-  explicit EglContext(const std::string& library) : egl_(LoadEgl(library)) {
+  explicit EglContext(const std::string& library) : library_(library), egl_(LoadEgl(library)) {
     std::string tried;
     for (const Candidate& candidate : Displays(egl_)) {
       std::string why;
@@ -156,8 +156,10 @@ class EglContext final : public GlContext {
   void Release() override { egl_.make_current(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
   const GlFunctions& gl() const override { return gl_; }
   std::string Maker() const override { return "egl"; }
+  std::unique_ptr<GlContext> Another() const override { return std::make_unique<EglContext>(library_); }
 
  private:
+  std::string library_;
   EglApi egl_;
   EGLDisplay display_ = EGL_NO_DISPLAY;
   EGLContext context_ = EGL_NO_CONTEXT;

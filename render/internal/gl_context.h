@@ -19,6 +19,8 @@ class GlContext {
   virtual void Release() = 0;
   virtual const GlFunctions& gl() const = 0;
   virtual std::string Maker() const = 0;
+  /// A new context of the same kind, which shares nothing with this one.
+  virtual std::unique_ptr<GlContext> Another() const = 0;
 };
 
 /// Holds a context current on this thread for the length of a scope.

@@ -1,5 +1,8 @@
 #include "render/internal/gl_renderer.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "base/error.h"
 #include "render/internal/shaders.h"
 #include "render/internal/sky.h"
@@ -19,13 +22,16 @@ std::string Describe(const GlContext& context) {
 
 GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& world, std::span<const Mover> movers,
                        Options options)
-    : context_(std::move(context)), options_(options), light_(world.light), X_WM_(movers.size()) {
+    : GlRenderer(std::move(context), std::make_shared<const SceneGeometry>(BuildScene(world, movers)), options) {}
+
+GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, std::shared_ptr<const SceneGeometry> scene, Options options)
+    : context_(std::move(context)), options_(options), geometry_(std::move(scene)), X_WM_(geometry_->movers.size()) {
   const CurrentContext current(*context_);
   const GlFunctions& gl = current.gl();
   description_ = Describe(*context_);
-  scene_ = std::make_unique<GpuScene>(gl, BuildScene(world, movers), world);
+  scene_ = std::make_unique<GpuScene>(gl, *geometry_);
   targets_ = std::make_unique<RenderTargets>(gl);
-  grey_ = std::make_unique<GlProgram>(gl, kSurfaceVertex, kGreyFragment);
+  grey_ = std::make_unique<GlProgram>(gl, kSurfaceVertex, options_.shadows ? kGreyFragment : kShadowlessGreyFragment);
   colour_ = std::make_unique<GlProgram>(gl, kSurfaceVertex, kColourFragment);
   depth_ = std::make_unique<GlProgram>(gl, kPositionVertex, kDepthFragment);
   sky_ = std::make_unique<GlProgram>(gl, kSkyVertex, kSkyFragment);
@@ -37,6 +43,10 @@ GlRenderer::GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& 
   gl.CullFace(GL_BACK);
   gl.FrontFace(GL_CW);  // rows come from the top: the picture is mirrored in GL's eyes
   CheckErrors();
+}
+
+std::unique_ptr<CameraRenderer> GlRenderer::Twin() const {
+  return std::make_unique<GlRenderer>(context_->Another(), geometry_, options_);
 }
 
 void GlRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
@@ -106,22 +116,31 @@ void GlRenderer::DrawSurfaces(const View& view, const GlProgram& program, int ch
   program.Set("brightness", view.brightness);
   if (view.draw_movers) DrawMovers(view, program, channels);
   program.SetAffine("world_from_model", base::Transform{});
-  const std::vector<Batch>& statics = scene_->geometry().statics;
+  const std::vector<Batch>& statics = geometry_->statics;
   const Frustum frustum = FrustumOf(clip_from_world);
-  scene_->Draw(NearestFirst(statics, options_.cull ? &frustum : nullptr, view.X_WC.p, channels == 0), channels);
+  const Frustum* seen = options_.cull ? &frustum : nullptr;
+  scene_->Draw(NearestFirst(statics, seen, view.X_WC.p, FocalFor(view), channels == 0), channels);
+}
+
+double GlRenderer::FocalFor(const View& view) const {
+  return options_.levels ? std::max(view.intrinsics.fx, view.intrinsics.fy) : std::numeric_limits<double>::infinity();
 }
 
 void GlRenderer::DrawMovers(const View& view, const GlProgram& program, int channels) {
-  const std::vector<Batch>& movers = scene_->geometry().movers;
+  const std::vector<Batch>& movers = geometry_->movers;
   for (std::size_t i = 0; i < movers.size(); ++i) {
     // Planes in the mover's own frame, where its box is: columns of the clip matrix times X_WM.
     Eigen::Matrix4d world_from_mover = Eigen::Matrix4d::Identity();
     world_from_mover.topLeftCorner<3, 3>() = X_WM_[i].R();
     world_from_mover.topRightCorner<3, 1>() = X_WM_[i].p;
     const Frustum frustum = FrustumOf(ClipFromWorld(view) * world_from_mover);
-    if (options_.cull && !MayBeVisible(frustum, movers[i].low, movers[i].high)) continue;
+    const Frustum* seen = options_.cull ? &frustum : nullptr;
+    const base::Vec3 eye_M = X_WM_[i].Inverse() * view.X_WC.p;
+    const std::vector<DrawRun> runs =
+        NearestFirst(std::span(&movers[i], 1), seen, eye_M, FocalFor(view), channels == 0);
+    if (runs.empty()) continue;
     program.SetAffine("world_from_model", world_from_mover);
-    scene_->Draw(AllRuns(std::span(&movers[i], 1), channels == 0), channels);
+    scene_->Draw(runs, channels);
   }
 }
 
@@ -134,7 +153,7 @@ void GlRenderer::DrawSky(const View& view, int channels) {
   rays.col(0) = middle;
   rays.col(1) = RayDirection(view, right, 0.5 * (bottom - 0.5)) - middle;
   rays.col(2) = RayDirection(view, 0.5 * (right - 0.5), bottom) - middle;
-  const SkyColours colours = SkyOf(light_, channels, view.brightness);
+  const SkyColours colours = SkyOf(geometry_->light, channels, view.brightness);
   sky_->Use();
   sky_->Set("rays", rays);
   sky_->Set("zenith", colours.zenith);

@@ -16,11 +16,15 @@ namespace alula::render::internal {
 class GlRenderer final : public CameraRenderer {
  public:
   struct Options {
-    bool cull = true;  // false draws what lies outside the view too: the reference for tests
+    bool cull = true;     // false draws what lies outside the view too: the reference for tests
+    bool levels = true;   // of detail; false draws everything at its full level
+    bool shadows = true;  // false lights what faces the sun, whatever stands between
   };
   GlRenderer(std::unique_ptr<GlContext> context, const worlds::World& world, std::span<const Mover> movers,
              Options options);
+  GlRenderer(std::unique_ptr<GlContext> context, std::shared_ptr<const SceneGeometry> scene, Options options);
 
+  std::unique_ptr<CameraRenderer> Twin() const override;
   void PlaceMovers(std::span<const base::Transform> X_WM) override;
   void Grey(const View& view, Picture& out) override;
   void Colour(const View& view, Picture& out) override;
@@ -32,11 +36,13 @@ class GlRenderer final : public CameraRenderer {
   void DrawMovers(const View& view, const GlProgram& program, int channels);
   void DrawSky(const View& view, int channels);
   void Begin(const View& view, PixelKind kind);
+  /// The longer focal length, or infinity where levels of detail are not wanted.
+  double FocalFor(const View& view) const;
   void CheckErrors() const;
 
   std::unique_ptr<GlContext> context_;
   Options options_;
-  worlds::Light light_;
+  std::shared_ptr<const SceneGeometry> geometry_;
   std::vector<base::Transform> X_WM_;
   std::string description_;
   std::vector<std::uint8_t> rgba_;  // scratch of the colour pass

@@ -1,7 +1,6 @@
 #include "render/internal/gpu_scene.h"
 
 #include <cstddef>
-#include <utility>
 
 #include "base/error.h"
 #include "render/internal/shaders.h"
@@ -33,13 +32,11 @@ GLuint UploadTexture(const GlFunctions& gl, const geometry::Material& material, 
 
 }  // namespace
 
-GpuScene::GpuScene(const GlFunctions& gl, SceneGeometry geometry, const worlds::World& world)
+GpuScene::GpuScene(const GlFunctions& gl, const SceneGeometry& geometry)
     : gl_(&gl),
-      geometry_(std::move(geometry)),
-      light_(world.light),
-      shadow_(FrameShadow(world, geometry_.low, geometry_.high)),
-      grey_textures_(geometry_.materials.size(), 0),
-      colour_textures_(geometry_.materials.size(), 0) {
+      geometry_(&geometry),
+      grey_textures_(geometry.materials.size(), 0),
+      colour_textures_(geometry.materials.size(), 0) {
   Upload();
   DrawShadowMap();
 }
@@ -51,11 +48,11 @@ void GpuScene::Upload() {
   GLuint buffers[2] = {0, 0};
   gl.GenBuffers(2, buffers);
   gl.BindBuffer(GL_ARRAY_BUFFER, buffers[0]);
-  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(geometry_.vertices.size() * sizeof(Vertex)),
-                geometry_.vertices.data(), GL_STATIC_DRAW);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(geometry_->vertices.size() * sizeof(Vertex)),
+                geometry_->vertices.data(), GL_STATIC_DRAW);
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffers[1]);
-  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(geometry_.indices.size() * sizeof(std::uint32_t)),
-                geometry_.indices.data(), GL_STATIC_DRAW);
+  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(geometry_->indices.size() * sizeof(std::uint32_t)),
+                geometry_->indices.data(), GL_STATIC_DRAW);
   const auto attribute = [&gl](GLuint location, GLint size, std::size_t offset) {
     gl.EnableVertexAttribArray(location);
     gl.VertexAttribPointer(location, size, GL_FLOAT, GL_FALSE, sizeof(Vertex), reinterpret_cast<const void*>(offset));
@@ -63,8 +60,6 @@ void GpuScene::Upload() {
   attribute(0, 3, offsetof(Vertex, position));
   attribute(1, 3, offsetof(Vertex, normal));
   attribute(2, 2, offsetof(Vertex, uv));
-  geometry_.vertices = {};  // the context has them now
-  geometry_.indices = {};
 }
 
 void GpuScene::DrawShadowMap() {
@@ -104,9 +99,9 @@ void GpuScene::DrawShadowMap() {
   gl.PolygonOffset(1.5F, 4.0F);
   const GlProgram program(gl, kPositionVertex, kShadowFragment);
   program.Use();
-  program.Set("clip_from_world", shadow_.clip_from_world);
+  program.Set("clip_from_world", geometry_->shadow.clip_from_world);
   program.SetAffine("world_from_model", base::Transform{});
-  Draw(AllRuns(geometry_.statics, true), 0);
+  Draw(AllRuns(geometry_->statics, true), 0);
   gl.Disable(GL_POLYGON_OFFSET_FILL);
   gl.Disable(GL_SCISSOR_TEST);
   gl.BindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -120,16 +115,16 @@ void GpuScene::Bind(const GlProgram& program) const {
   gl_->ActiveTexture(GL_TEXTURE0);
   program.Set("albedo", 0);
   program.Set("shadow_map", 1);
-  program.SetAffine("shadow_from_world", shadow_.texture_from_world);
-  program.Set("to_sun", light_.to_sun_W.normalized().cast<float>().eval());
-  program.Set("light",
-              Eigen::Vector3f(light_.sun, light_.ambient, kShadowNormalOffset * static_cast<float>(shadow_.texel)));
+  program.SetAffine("shadow_from_world", geometry_->shadow.texture_from_world);
+  program.Set("to_sun", geometry_->light.to_sun_W.normalized().cast<float>().eval());
+  program.Set("light", Eigen::Vector3f(geometry_->light.sun, geometry_->light.ambient,
+                                       kShadowNormalOffset * static_cast<float>(geometry_->shadow.texel)));
 }
 
 GLuint GpuScene::TextureOf(int material, int channels) {
   GLuint& texture = (channels == 1 ? grey_textures_ : colour_textures_)[static_cast<std::size_t>(material)];
   if (texture == 0) {
-    texture = UploadTexture(*gl_, geometry_.materials[static_cast<std::size_t>(material)], channels);
+    texture = UploadTexture(*gl_, geometry_->materials[static_cast<std::size_t>(material)], channels);
   }
   return texture;
 }

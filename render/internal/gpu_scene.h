@@ -6,16 +6,14 @@
 #include "render/internal/draw_list.h"
 #include "render/internal/gl_program.h"
 #include "render/internal/scene_geometry.h"
-#include "render/internal/shadow_frame.h"
 
 namespace alula::render::internal {
 
 /// The scene's buffers, textures and shadow map in one context, which must be current in every call.
 class GpuScene {
  public:
-  GpuScene(const GlFunctions& gl, SceneGeometry geometry, const worlds::World& world);
+  GpuScene(const GlFunctions& gl, const SceneGeometry& geometry);
 
-  const SceneGeometry& geometry() const { return geometry_; }
   /// Binds buffers and the shadow map and gives the program in use the light.
   void Bind(const GlProgram& program) const;
   /// Draws the runs with the program in use; `channels` 1 or 3 chooses the textures, 0 binds none.
@@ -27,9 +25,7 @@ class GpuScene {
   GLuint TextureOf(int material, int channels);
 
   const GlFunctions* gl_;
-  SceneGeometry geometry_;
-  worlds::Light light_;
-  ShadowFrame shadow_;
+  const SceneGeometry* geometry_;  // outlives this
   GLuint vertex_array_ = 0;
   GLuint shadow_map_ = 0;
   std::vector<GLuint> grey_textures_;    // by material; 0 until first needed

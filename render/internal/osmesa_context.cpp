@@ -45,7 +45,8 @@ Function Symbol(void* library, const char* name) {
 class OsMesaContext final : public GlContext {
  public:
   explicit OsMesaContext(void* library)
-      : make_current_(Symbol<MakeCurrentFunction>(library, "OSMesaMakeCurrent")),
+      : library_(library),
+        make_current_(Symbol<MakeCurrentFunction>(library, "OSMesaMakeCurrent")),
         destroy_(Symbol<DestroyFunction>(library, "OSMesaDestroyContext")) {
     const auto create = Symbol<CreateFunction>(library, "OSMesaCreateContextAttribs");
     const auto get_address = Symbol<GetProcAddressFunction>(library, "OSMesaGetProcAddress");
@@ -72,10 +73,12 @@ class OsMesaContext final : public GlContext {
   void Release() override { make_current_(nullptr, nullptr, GL_UNSIGNED_BYTE, 0, 0); }
   const GlFunctions& gl() const override { return gl_; }
   std::string Maker() const override { return "osmesa"; }
+  std::unique_ptr<GlContext> Another() const override { return std::make_unique<OsMesaContext>(library_); }
 
  private:
   static constexpr int kSide = 4;                           // of the default framebuffer, which is never drawn to
   std::array<std::uint8_t, 4UL * kSide * kSide> buffer_{};  // OSMesa wants one all the same
+  void* library_;                                           // stays loaded
   MakeCurrentFunction make_current_;
   DestroyFunction destroy_;
   OsMesaHandle* context_ = nullptr;

@@ -1,28 +1,47 @@
 #include "render/internal/scene_geometry.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 
 namespace alula::render::internal {
 namespace {
 
-Batch Append(SceneGeometry& scene, const geometry::Mesh& mesh, const base::Transform& X_WO, int material) {
-  const auto base_vertex = static_cast<std::uint32_t>(scene.vertices.size());
-  Batch batch;
-  batch.material = material;
-  batch.first_index = static_cast<std::uint32_t>(scene.indices.size());
-  batch.index_count = static_cast<std::uint32_t>(3 * mesh.triangles.size());
+/// Vertices and triangles of a level; the batch's box grows about them.
+Level AppendLevel(SceneGeometry& scene, const DetailLevel& detail, const base::Transform& X_WO, Batch& batch) {
+  Level level;
+  level.first_index = static_cast<std::uint32_t>(scene.indices.size());
+  level.index_count = static_cast<std::uint32_t>(3 * detail.mesh.triangles.size());
+  level.first_vertex = static_cast<std::uint32_t>(scene.vertices.size());
+  level.vertex_count = static_cast<std::uint32_t>(detail.mesh.vertices.size());
+  level.error = static_cast<float>(detail.error);
   const base::Mat3 R_WO = X_WO.R();
-  for (const geometry::Mesh::Vertex& v : mesh.vertices) {
+  bool first = batch.level_count == 0;
+  for (const geometry::Mesh::Vertex& v : detail.mesh.vertices) {
     geometry::Mesh::Vertex placed = v;
     placed.position = (R_WO * v.position.cast<double>() + X_WO.p).cast<float>();
     placed.normal = (R_WO * v.normal.cast<double>()).cast<float>();
-    const bool first = scene.vertices.size() == base_vertex;
     batch.low = first ? placed.position : batch.low.cwiseMin(placed.position).eval();
     batch.high = first ? placed.position : batch.high.cwiseMax(placed.position).eval();
+    first = false;
     scene.vertices.push_back(placed);
   }
-  for (const auto& triangle : mesh.triangles) {
-    for (const std::uint32_t corner : triangle) scene.indices.push_back(base_vertex + corner);
+  if (!scene.vertices.empty()) {
+    const std::size_t eights = (scene.vertices.size() + kVertexRun - 1) / kVertexRun;
+    scene.vertices.resize(eights * kVertexRun, scene.vertices.back());
+  }
+  for (const auto& triangle : detail.mesh.triangles) {
+    for (const std::uint32_t corner : triangle) scene.indices.push_back(level.first_vertex + corner);
+  }
+  return level;
+}
+
+Batch Append(SceneGeometry& scene, const std::vector<DetailLevel>& levels, const base::Transform& X_WO, int material) {
+  Batch batch;
+  batch.material = material;
+  for (const DetailLevel& detail : levels) {
+    const Level level = AppendLevel(scene, detail, X_WO, batch);
+    batch.levels[static_cast<std::size_t>(batch.level_count++)] = level;
   }
   return batch;
 }
@@ -38,8 +57,7 @@ SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> move
                                            std::to_string(object.material) + " of " +
                                            std::to_string(world.materials.size()));
     }
-    const geometry::Mesh mesh = geometry::Tessellate(object.shape, object.texture_scale);
-    const Batch batch = Append(scene, mesh, object.X_WO, object.material);
+    const Batch batch = Append(scene, DetailLevels(object.shape, object.texture_scale), object.X_WO, object.material);
     scene.low = scene.statics.empty() ? batch.low : scene.low.cwiseMin(batch.low).eval();
     scene.high = scene.statics.empty() ? batch.high : scene.high.cwiseMax(batch.high).eval();
     scene.statics.push_back(batch);
@@ -47,9 +65,19 @@ SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> move
   for (const Mover& mover : movers) {
     const int material = static_cast<int>(scene.materials.size());
     scene.materials.push_back(mover.material);
-    scene.movers.push_back(Append(scene, geometry::Tessellate(mover.shape), base::Transform{}, material));
+    scene.movers.push_back(Append(scene, DetailLevels(mover.shape, 1.0), base::Transform{}, material));
   }
+  scene.light = world.light;
+  scene.shadow = FrameShadow(world, scene.low, scene.high);
   return scene;
+}
+
+const Level& LevelFor(const Batch& batch, const Eigen::Vector3f& eye, double focal) {
+  const Eigen::Vector3f nearest = eye.cwiseMax(batch.low).cwiseMin(batch.high);
+  const double allowed = kPixelError * static_cast<double>((eye - nearest).norm()) / focal;
+  std::size_t level = static_cast<std::size_t>(std::max(batch.level_count, 1)) - 1;
+  while (level > 0 && static_cast<double>(batch.levels[level].error) > allowed) --level;
+  return batch.levels[level];
 }
 
 }  // namespace alula::render::internal

@@ -46,6 +46,15 @@ const float kSharper = -0.5;  // levels; isotropic mip-maps blur ground that is 
 layout(location = 0) out float value;
 void main() { value = texture(albedo, uv, kSharper).r * mix(shade.x, shade.y, texture(shadow_map, shadow_at)); }
 )";
+/// Grey without a look-up in the shadow map: what faces the sun is lit.
+inline constexpr const char* kShadowlessGreyFragment = R"(#version 330 core
+in vec2 uv;
+in vec2 shade;
+uniform sampler2D albedo;
+const float kSharper = -0.5;
+layout(location = 0) out float value;
+void main() { value = texture(albedo, uv, kSharper).r * shade.y; }
+)";
 inline constexpr const char* kColourFragment = R"(#version 330 core
 in vec2 uv;
 in vec2 shade;

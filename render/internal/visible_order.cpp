@@ -21,7 +21,7 @@ std::vector<std::uint32_t> VisibleOrder(std::span<const Batch> batches, const Fr
   const Eigen::Vector3f eye = eye_W.cast<float>();
   std::vector<std::pair<float, std::uint32_t>> seen;  // distance, batch; the number breaks ties
   for (std::uint32_t i = 0; i < batches.size(); ++i) {
-    if (batches[i].index_count == 0) continue;
+    if (batches[i].levels[0].index_count == 0) continue;
     if (frustum != nullptr && !MayBeVisible(*frustum, batches[i].low, batches[i].high)) continue;
     seen.emplace_back(MiddleDistance(batches[i], eye), i);
   }

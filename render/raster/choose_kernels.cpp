@@ -4,7 +4,7 @@ namespace alula::render::raster {
 
 const Kernels* Avx2KernelsOrNull() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx2")) return Avx2Table();
+  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return Avx2Table();
 #endif
   return nullptr;
 }

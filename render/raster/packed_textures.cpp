@@ -1,7 +1,6 @@
 #include "render/raster/packed_textures.h"
 
 #include "render/internal/texture_levels.h"
-#include "render/raster/morton.h"
 
 namespace alula::render::raster {
 namespace {
@@ -9,36 +8,38 @@ namespace {
 using internal::TextureLevel;
 
 /// One level's words of one channel, from `words` on.
-void Pack(const TextureLevel& level, int channels, int channel, std::uint32_t* words) {
+void Pack(const TextureLevel& level, int channels, int channel, std::int32_t pitch, std::uint16_t* words) {
   const auto row_of = [&](int y) {
-    return level.bytes.data() + (y & (level.height - 1)) * level.width * channels + channel;
+    return level.bytes.data() + (y & (level.height - 1)) * level.width * channels + channel;  // sides are powers of two
   };
   for (int y = 0; y < level.height; ++y) {
     const std::uint8_t* row = row_of(y);
     const std::uint8_t* above = row_of(y + 1);
+    std::uint16_t* out = words + std::ptrdiff_t{y} * pitch;
     for (int x = 0; x < level.width; ++x) {
-      const int here = x * channels;
-      const int right = ((x + 1) & (level.width - 1)) * channels;  // sides are powers of two
-      words[Morton(x, y)] = std::uint32_t{row[here]} | std::uint32_t{above[here]} << 8 |
-                            std::uint32_t{row[right]} << 16 | std::uint32_t{above[right]} << 24;
+      out[x] = static_cast<std::uint16_t>(row[x * channels] | above[x * channels] << 8);
     }
+    out[level.width] = out[0];
   }
 }
 
 void Append(PackedTextures& packed, const std::vector<TextureLevel>& levels, int channels) {
   const TextureLevel& top = levels.front();
+  const auto count = static_cast<std::int32_t>(levels.size());
   TextureView view{};
-  view.offset = static_cast<std::uint32_t>(packed.words[0].size());
+  view.offset = static_cast<std::int32_t>(packed.words[0].size());
   view.last_column = top.width - 1;
   view.last_row = top.height - 1;
-  view.last_level = static_cast<std::int32_t>(levels.size()) - 1;
-  const std::size_t length = ((std::size_t{4} << (2 * view.last_level)) - 1) / 3;  // of all levels together
+  view.last_level = static_cast<float>(count - 1);
+  view.skip = 2 * top.width;
+  view.pitch = view.skip + 2 * count + 2;  // the level beyond the last begins inside too
+  const std::size_t length = static_cast<std::size_t>(view.pitch) * static_cast<std::size_t>(top.height);
   for (int channel = 0; channel < channels; ++channel) {
-    std::vector<std::uint32_t>& words = packed.words[static_cast<std::size_t>(channel)];
-    words.resize(words.size() + length, 0);
-    int k = view.last_level;
-    for (const TextureLevel& level : levels) {
-      Pack(level, channels, channel, words.data() + view.offset + ((std::size_t{1} << (2 * k--)) - 1) / 3);
+    std::vector<std::uint16_t>& words = packed.words[static_cast<std::size_t>(channel)];
+    words.resize(words.size() + length);
+    for (std::int32_t l = 0; l < count; ++l) {
+      const std::int32_t column = view.skip - (view.skip >> l) + 2 * l;
+      Pack(levels[static_cast<std::size_t>(l)], channels, channel, view.pitch, words.data() + view.offset + column);
     }
   }
   packed.views.push_back(view);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -9,11 +10,10 @@
 
 namespace alula::render::raster {
 
-/// The mip chains of all materials for one kind of picture, 2×2 texels a word (t(x, y), t(x, y+1), t(x+1, y),
-/// t(x+1, y+1), lowest byte first; wrapped), so that a bilinear sample is one load.
+/// The mip chains of all materials for one kind of picture, laid out as TextureView says.
 struct PackedTextures {
   std::vector<TextureView> views;  // one a material
-  std::array<std::vector<std::uint32_t>, 3> words;
+  std::array<std::vector<std::uint16_t>, 3> words;
 };
 
 /// `channels`: 1 (luma) or 3 (RGB). Throws base::FaultError as TextureLevels does.

@@ -7,23 +7,32 @@
 #include "render/internal/sky.h"
 #include "render/internal/visible_order.h"
 #include "render/raster/occlusion.h"
-#include "render/raster/shadow_map.h"
 
 namespace alula::render::raster {
 namespace {
 
-/// Rows of (column, row, depth) = m · (p_W, 1): column/depth and row/depth are pixels, depth m.
-std::array<float, 12> PixelFromWorld(const View& view) {
+/// Rows of (column, row, depth) = m · (p_A, 1), of a point in frame A: column/depth and row/depth are pixels, depth m.
+std::array<float, 12> PixelFrom(const View& view, const base::Transform& X_WA) {
   const stack::CameraIntrinsics& k = view.intrinsics;
-  const base::Transform X_CW = view.X_WC.Inverse();
-  Eigen::Matrix<double, 3, 4> camera_from_world;
-  camera_from_world << X_CW.R(), X_CW.p;
+  const base::Transform X_CA = view.X_WC.Inverse() * X_WA;
+  Eigen::Matrix<double, 3, 4> camera_from_a;
+  camera_from_a << X_CA.R(), X_CA.p;
   base::Mat3 pixel_from_camera;
   pixel_from_camera << k.fx, 0.0, k.cx, 0.0, k.fy, k.cy, 0.0, 0.0, 1.0;
-  const Eigen::Matrix<double, 3, 4> product = pixel_from_camera * camera_from_world;
+  const Eigen::Matrix<double, 3, 4> product = pixel_from_camera * camera_from_a;
   std::array<float, 12> m{};
   for (int i = 0; i < 12; ++i) m[static_cast<std::size_t>(i)] = static_cast<float>(product(i / 4, i % 4));
   return m;
+}
+
+/// The box in the world of a mover's box in its own frame.
+void PlaceBox(const internal::Batch& mover, const base::Transform& X_WM, internal::Batch& box) {
+  const base::Vec3 low = mover.low.cast<double>();
+  const base::Vec3 high = mover.high.cast<double>();
+  const base::Vec3 middle = X_WM * (0.5 * (low + high)).eval();
+  const base::Vec3 reach = X_WM.R().cwiseAbs() * (0.5 * (high - low)) + base::Vec3::Constant(1e-4);  // m, for rounding
+  box.low = (middle - reach).cast<float>();
+  box.high = (middle + reach).cast<float>();
 }
 
 void SetSky(const View& view, const internal::SkyColours& sky, ShadeJob& job) {
@@ -44,63 +53,92 @@ void SetSky(const View& view, const internal::SkyColours& sky, ShadeJob& job) {
 }  // namespace
 
 RasterRenderer::RasterRenderer(const Kernels& kernels, const worlds::World& world, std::span<const Mover> movers)
-    : RasterRenderer(kernels, internal::BuildScene(world, movers), world) {}
+    : RasterRenderer(kernels, std::make_shared<const RasterScene>(internal::BuildScene(world, movers), kernels)) {}
 
-RasterRenderer::RasterRenderer(const Kernels& kernels, internal::SceneGeometry geometry, const worlds::World& world)
+RasterRenderer::RasterRenderer(const Kernels& kernels, std::shared_ptr<const RasterScene> scene)
     : kernels_(&kernels),
-      light_(world.light),
-      shadow_frame_(internal::FrameShadow(world, geometry.low, geometry.high)),
-      scene_(std::move(geometry), LightingOf(world.light, shadow_frame_)),
-      shadow_map_(DrawShadowMap(scene_, shadow_frame_, kernels)),
-      drawn_numbers_(scene_.triangles()) {}
-
-void RasterRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
-  const std::size_t movers = scene_.parts().size() - scene_.statics();
-  if (X_WM.size() != movers) {
-    throw base::FaultError("render", std::to_string(X_WM.size()) + " poses for " + std::to_string(movers) + " movers");
-  }
-  for (std::size_t i = 0; i < X_WM.size(); ++i) scene_.PlaceMover(i, X_WM[i]);
+      scene_(std::move(scene)),
+      boxes_(scene_->geometry().statics),
+      movers_(scene_->geometry().movers.size()),
+      mover_attributes_(scene_->mover_vertices() * kAttributes),
+      vertices_(scene_->vertices()),
+      drawn_numbers_(scene_->triangles()) {
+  const internal::SceneGeometry& geometry = scene_->geometry();
+  boxes_.insert(boxes_.end(), geometry.movers.begin(), geometry.movers.end());
 }
 
-const PackedTextures& RasterRenderer::Textures(int channels) {
-  std::optional<PackedTextures>& textures = channels == 1 ? grey_ : colour_;
-  if (!textures) textures = PackTextures(scene_.materials(), channels);
-  return *textures;
+std::unique_ptr<CameraRenderer> RasterRenderer::Twin() const {
+  return std::make_unique<RasterRenderer>(*kernels_, scene_);
+}
+
+void RasterRenderer::PlaceMovers(std::span<const base::Transform> X_WM) {
+  if (X_WM.size() != movers_.size()) {
+    throw base::FaultError("render",
+                           std::to_string(X_WM.size()) + " poses for " + std::to_string(movers_.size()) + " movers");
+  }
+  const internal::SceneGeometry& geometry = scene_->geometry();
+  for (std::size_t i = 0; i < X_WM.size(); ++i) {
+    movers_[i] = {X_WM[i], nullptr};
+    PlaceBox(geometry.movers[i], X_WM[i], boxes_[geometry.statics.size() + i]);
+  }
 }
 
 Target RasterRenderer::DrawView(const View& view, bool with_ids) {
   const Target target =
       buffer_.Clear(view.intrinsics.width, view.intrinsics.height, static_cast<float>(1.0 / internal::kFar), with_ids);
   drawn_ = {drawn_numbers_.data(), 0};
-  const std::array<float, 12> m = PixelFromWorld(view);
+  const std::array<float, 12> m = PixelFrom(view, base::Transform{});
   const internal::Frustum frustum = internal::FrustumOf(internal::ClipFromWorld(view));
-  const std::span<const internal::Batch> boxes(scene_.boxes());
-  const std::size_t drawn = view.draw_movers ? boxes.size() : scene_.statics();
+  const Eigen::Vector3f eye_W = view.X_WC.p.cast<float>();
+  const double focal = std::max(view.intrinsics.fx, view.intrinsics.fy);
+  const std::span<const internal::Batch> boxes(boxes_);
+  const std::size_t statics = scene_->geometry().statics.size();
+  const std::size_t drawn = view.draw_movers ? boxes.size() : statics;
   for (const std::uint32_t number : internal::VisibleOrder(boxes.first(drawn), &frustum, view.X_WC.p)) {
     if (IsHidden(boxes[number], m, target)) continue;
-    const RasterScene::Part& part = scene_.parts()[number];
-    kernels_->transform(scene_.vertices(), part.first_vertex, part.vertices, m.data(),
-                        static_cast<float>(internal::kNear));
-    to_clip_.resize(std::max<std::size_t>(to_clip_.size(), part.triangles));
-    const DrawJob job{{scene_.corners(0), scene_.corners(1), scene_.corners(2)},
-                      part.first_triangle,
-                      part.triangles,
-                      scene_.vertices(),
-                      target,
-                      &drawn_,
-                      to_clip_.data()};
-    const std::uint32_t count = kernels_->draw(job);
-    for (std::uint32_t i = 0; i < count; ++i) DrawClipped(target, to_clip_[i]);
+    if (number < statics) {
+      DrawLevel(internal::LevelFor(boxes[number], eye_W, focal), m, target);
+    } else {
+      DrawMover(view, number - statics, target);
+    }
   }
   return target;
 }
 
+void RasterRenderer::DrawMover(const View& view, std::size_t number, const Target& target) {
+  Placed& mover = movers_[number];
+  const Eigen::Vector3f eye_M = (mover.X_WM.Inverse() * view.X_WC.p).cast<float>();
+  const double focal = std::max(view.intrinsics.fx, view.intrinsics.fy);
+  const internal::Level& level = internal::LevelFor(scene_->geometry().movers[number], eye_M, focal);
+  if (target.ids != nullptr && mover.lit != &level) {
+    scene_->LightMover(level, mover.X_WM, mover_attributes_.data());
+    mover.lit = &level;
+  }
+  DrawLevel(level, PixelFrom(view, mover.X_WM), target);
+}
+
+void RasterRenderer::DrawLevel(const internal::Level& level, const std::array<float, 12>& m, const Target& target) {
+  kernels_->transform(scene_->positions(), vertices_.arrays(), level.first_vertex, level.vertex_count, m.data(),
+                      static_cast<float>(internal::kNear));
+  const std::uint32_t triangles = level.index_count / 3;
+  to_clip_.resize(std::max<std::size_t>(to_clip_.size(), triangles));
+  const DrawJob job{{scene_->corners(0), scene_->corners(1), scene_->corners(2)},
+                    level.first_index / 3,
+                    triangles,
+                    vertices_.arrays(),
+                    target,
+                    &drawn_,
+                    to_clip_.data()};
+  const std::uint32_t count = kernels_->draw(job);
+  for (std::uint32_t i = 0; i < count; ++i) DrawClipped(target, to_clip_[i]);
+}
+
 void RasterRenderer::DrawClipped(const Target& target, std::uint32_t number) {
-  const Vertices& v = scene_.vertices();
+  const Vertices& v = vertices_.arrays();
   std::array<Corner, 3> corners;
   std::array<base::Vec3, 3> p;
   for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint32_t c = scene_.corners(static_cast<int>(i))[number];
+    const std::uint32_t c = scene_->corners(i)[number];
     p[i] = {v.column[c], v.row[c], v.depth[c]};
     corners[i] = {p[i].x(), p[i].y(), p[i].z(), v.flags[c] == 0, v.pixel_x[c], v.pixel_y[c]};
   }
@@ -129,31 +167,42 @@ void RasterRenderer::DrawClipped(const Target& target, std::uint32_t number) {
   }
 }
 
+ShadeJob RasterRenderer::JobFor(const View& view, int channels, const Target& target) {
+  const PackedTextures& textures = scene_->Textures(channels);
+  ShadeJob job{};
+  job.target = target;
+  job.vertices = vertices_.arrays();
+  for (std::size_t i = 0; i < 3; ++i) job.corners[i] = scene_->corners(i);
+  job.texture_of_triangle = scene_->texture_of_triangle();
+  job.attributes = scene_->attributes();
+  job.mover_attributes = mover_attributes_.data();
+  job.first_mover_vertex = scene_->first_mover_vertex();
+  if (planes_.size() <= drawn_.count) planes_.resize(std::size_t{drawn_.count} + 1);
+  job.drawn = drawn_.numbers;
+  job.planes = planes_.data();
+  job.frame = ++frame_;
+  planes_[0].frame = job.frame;  // of pixels that show nothing: never made
+  job.textures = textures.views.data();
+  for (std::size_t c = 0; c < 3; ++c) job.words[c] = textures.words[c].data();
+  job.shadow_map = scene_->shadow_map().words.data();
+  job.shadow_side = internal::kShadowSide;
+  job.shadow_pitch = scene_->shadow_map().pitch;
+  job.channels = channels;
+  job.brightness = view.brightness;
+  SetSky(view, internal::SkyOf(scene_->geometry().light, channels, view.brightness), job);
+  return job;
+}
+
 void RasterRenderer::Paint(const View& view, int channels, Picture& out) {
   internal::CheckView(view);
-  const PackedTextures& textures = Textures(channels);
   out.width = view.intrinsics.width;
   out.height = view.intrinsics.height;
   out.channels = channels;
   out.bytes.resize(static_cast<std::size_t>(out.width) * static_cast<std::size_t>(out.height) *
                    static_cast<std::size_t>(channels));
-  ShadeJob job{};
-  job.target = DrawView(view, true);
-  job.vertices = scene_.vertices();
-  for (int i = 0; i < 3; ++i) job.corners[i] = scene_.corners(i);
-  job.texture_of_triangle = scene_.texture_of_triangle().data();
-  if (planes_.size() < drawn_.count) planes_.resize(drawn_.count);
-  job.drawn = drawn_.numbers;
-  job.planes = planes_.data();
-  job.frame = ++frame_;
-  job.textures = textures.views.data();
-  for (std::size_t c = 0; c < 3; ++c) job.words[c] = textures.words[c].data();
-  job.shadow_map = shadow_map_.data();
-  job.shadow_side = internal::kShadowSide;
-  job.channels = channels;
-  job.brightness = view.brightness;
+  const Target target = DrawView(view, true);
+  ShadeJob job = JobFor(view, channels, target);
   job.out = out.bytes.data();
-  SetSky(view, internal::SkyOf(light_, channels, view.brightness), job);
   kernels_->shade(job);
 }
 

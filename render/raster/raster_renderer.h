@@ -1,24 +1,27 @@
 #pragma once
 
-#include <optional>
+#include <array>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "render/camera_renderer.h"
 #include "render/raster/clipper.h"
-#include "render/raster/packed_textures.h"
 #include "render/raster/raster_scene.h"
+#include "render/raster/view_vertices.h"
 #include "render/raster/visibility_buffer.h"
 
 namespace alula::render::raster {
 
 /// The renderer on the processor. Each picture: order the batches nearest first, draw them into the visibility buffer,
-/// shade it.
+/// shade it. The scene is shared with the twins; all else is scratch of this renderer.
 class RasterRenderer final : public CameraRenderer {
  public:
   RasterRenderer(const Kernels& kernels, const worlds::World& world, std::span<const Mover> movers);
+  RasterRenderer(const Kernels& kernels, std::shared_ptr<const RasterScene> scene);
 
+  std::unique_ptr<CameraRenderer> Twin() const override;
   void PlaceMovers(std::span<const base::Transform> X_WM) override;
   void Grey(const View& view, Picture& out) override { Paint(view, 1, out); }
   void Colour(const View& view, Picture& out) override { Paint(view, 3, out); }
@@ -26,22 +29,28 @@ class RasterRenderer final : public CameraRenderer {
   std::string Description() const override { return std::string("raster ") + kernels_->name; }
 
  private:
-  RasterRenderer(const Kernels& kernels, internal::SceneGeometry geometry, const worlds::World& world);
+  /// Where a mover stands; its attributes are made when a picture first shows it there.
+  struct Placed {
+    base::Transform X_WM;
+    const internal::Level* lit = nullptr;  // the level whose attributes are those of X_WM
+  };
   void Paint(const View& view, int channels, Picture& out);
   /// The visibility buffer of a view; without ids for depth alone.
   Target DrawView(const View& view, bool with_ids);
+  /// Triangles of a level whose vertices have been transformed by m.
+  void DrawLevel(const internal::Level& level, const std::array<float, 12>& m, const Target& target);
+  void DrawMover(const View& view, std::size_t number, const Target& target);
   void DrawClipped(const Target& target, std::uint32_t triangle);
-  const PackedTextures& Textures(int channels);
+  ShadeJob JobFor(const View& view, int channels, const Target& target);
 
   const Kernels* kernels_;
-  worlds::Light light_;
-  internal::ShadowFrame shadow_frame_;
-  RasterScene scene_;
-  std::vector<std::uint32_t> shadow_map_;
-  std::optional<PackedTextures> grey_;
-  std::optional<PackedTextures> colour_;
+  std::shared_ptr<const RasterScene> scene_;
+  std::vector<internal::Batch> boxes_;  // the statics', then the movers' in the world
+  std::vector<Placed> movers_;
+  std::vector<float> mover_attributes_;
   std::uint32_t frame_ = 0;
   // Scratch of a picture.
+  ViewVertices vertices_;
   std::vector<std::uint32_t> drawn_numbers_;
   DrawnList drawn_{};
   std::vector<TrianglePlanes> planes_;

@@ -1,68 +1,55 @@
 #pragma once
 
 #include <array>
-#include <span>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "render/internal/scene_geometry.h"
-#include "render/internal/shadow_frame.h"
 #include "render/raster/kernels.h"
+#include "render/raster/packed_textures.h"
+#include "render/raster/shadow_map.h"
 
 namespace alula::render::raster {
 
-/// Light and shadow look-up of a vertex (m, world axes): the law of render/internal/shaders.h.
-struct Lighting {
-  Eigen::Vector3f to_sun;
-  float sun = 0.0F;
-  float ambient = 0.0F;
-  float normal_offset = 0.0F;  // m, for the shadow look-up
-  Eigen::Matrix<float, 3, 4> shadow_from_world;
-};
-Lighting LightingOf(const worlds::Light& light, const internal::ShadowFrame& frame);
-
-/// All that is drawn, as the kernels want it: world coordinates by axis, attributes by vertex. Movers stand where they
-/// were placed last.
+/// All that is drawn, as the kernels want it: places by axis, attributes by vertex. Statics stand in the world, movers
+/// in their own frames. Never changed once made (textures are packed when first asked for): renderers on several
+/// threads share it.
 class RasterScene {
  public:
-  RasterScene(internal::SceneGeometry geometry, const Lighting& lighting);
+  RasterScene(internal::SceneGeometry geometry, const Kernels& kernels);
 
-  /// A run of triangles and of the vertices they use.
-  struct Part {
-    std::uint32_t first_triangle = 0;
-    std::uint32_t triangles = 0;
-    std::uint32_t first_vertex = 0;
-    std::uint32_t vertices = 0;
-  };
-
-  void PlaceMover(std::size_t number, const base::Transform& X_WM);
-
-  const std::vector<geometry::Material>& materials() const { return geometry_.materials; }
-  /// Boxes in the world and parts of the statics, then of the movers.
-  const std::vector<internal::Batch>& boxes() const { return boxes_; }
-  const std::vector<Part>& parts() const { return parts_; }
-  std::size_t statics() const { return geometry_.statics.size(); }
+  const internal::SceneGeometry& geometry() const { return geometry_; }
   std::size_t triangles() const { return texture_of_triangle_.size(); }
+  std::size_t vertices() const { return geometry_.vertices.size(); }
+  std::size_t mover_vertices() const { return vertices() - first_mover_vertex_; }
+  std::uint32_t first_mover_vertex() const { return first_mover_vertex_; }
   /// First (0), second or third corners of all triangles.
-  const std::uint32_t* corners(int i) const { return corners_[static_cast<std::size_t>(i)].data(); }
-  const std::vector<std::uint32_t>& texture_of_triangle() const { return texture_of_triangle_; }
-  /// The view's arrays are shared by all views: each transforms anew what it draws.
-  const Vertices& vertices() const { return vertices_; }
+  const std::uint32_t* corners(std::size_t i) const { return corners_[i].data(); }
+  const std::uint32_t* texture_of_triangle() const { return texture_of_triangle_.data(); }
+  Positions positions() const { return {positions_[0].data(), positions_[1].data(), positions_[2].data()}; }
+  const float* attributes() const { return attributes_.data(); }  // of the statics
+  const ShadowMap& shadow_map() const { return shadow_map_; }
+  /// `channels`: 1 or 3. Throws base::FaultError as PackTextures does.
+  const PackedTextures& Textures(int channels) const;
+
+  /// Attributes of the vertices of a mover's level at X_WM. `out`: place of the first mover's first vertex.
+  void LightMover(const internal::Level& level, const base::Transform& X_WM, float* out) const;
 
  private:
-  void Place(std::size_t vertex, const Eigen::Vector3f& position, const Eigen::Vector3f& normal);
-  void PointAtArrays();
+  void SetTriangles(const internal::Batch& batch);
+  void SetPositions();
 
   internal::SceneGeometry geometry_;
-  Lighting lighting_;
-  std::vector<internal::Batch> boxes_;
-  std::vector<Part> parts_;
-  std::vector<std::uint32_t> texture_of_triangle_;
+  std::array<std::vector<float>, 3> positions_;
   std::array<std::vector<std::uint32_t>, 3> corners_;
-  std::vector<float> floats_;  // x, y, z, attributes, column, row, depth, inverse depth, one after another
-  std::vector<std::int32_t> integers_;
-  Vertices vertices_{};
-  float* positions_[3] = {};
-  float* attributes_ = nullptr;
+  std::vector<std::uint32_t> texture_of_triangle_;
+  std::vector<Eigen::Vector2f> texels_;  // a period of each vertex's texture
+  std::vector<float> attributes_;
+  std::uint32_t first_mover_vertex_ = 0;
+  ShadowMap shadow_map_;
+  mutable std::mutex packing_;
+  mutable std::array<std::optional<PackedTextures>, 2> textures_;  // grey, colour
 };
 
 }  // namespace alula::render::raster

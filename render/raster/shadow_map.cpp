@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "render/raster/clipper.h"
-#include "render/raster/morton.h"
 #include "render/raster/visibility_buffer.h"
 
 namespace alula::render::raster {
@@ -48,33 +47,60 @@ void DrawPolygon(const Kernels& kernels, const Target& target, const std::vector
   }
 }
 
-/// 65535 on the rim: what lies beyond the map looks up its edge and finds light.
-std::uint32_t TexelAt(const Target& target, int x, int y) {
-  constexpr int kLast = kShadowSide - 1;
-  if (x == 0 || y == 0 || x >= kLast || y >= kLast) return 65535;
-  const int tile = y / kTile * target.tiles_x + x / kTile;
-  const float nearness = target.inverse_depth[tile * kTile * kTile + y % kTile * kTile + x % kTile];
-  return static_cast<std::uint32_t>(std::ceil((1.0F - nearness) * 65535.0F));
+/// Places of all vertices in the map: texels, texels, nearness.
+std::vector<base::Vec3> PlacesInMap(const internal::SceneGeometry& scene) {
+  std::vector<base::Vec3> places;
+  places.reserve(scene.vertices.size());
+  const Eigen::Matrix4d& m = scene.shadow.texture_from_world;
+  for (const geometry::Mesh::Vertex& v : scene.vertices) {
+    const base::Vec3 p = m.topLeftCorner<3, 3>() * v.position.cast<double>() + m.topRightCorner<3, 1>();
+    places.emplace_back(p.x() * kShadowSide - 0.5, p.y() * kShadowSide - 0.5, 1.0 - p.z());
+  }
+  return places;
+}
+
+/// The rows of one row of tiles, from nearness; the map's rim stays at 65535: what lies beyond the map looks up its
+/// edge and finds light.
+void CopyTiles(const Target& target, int tile_row, ShadowMap& map) {
+  for (int y = 0; y < kTile; ++y) {
+    std::uint16_t* out = map.words.data() + std::ptrdiff_t{tile_row * kTile + y} * map.pitch;
+    for (int tile = 0; tile < target.tiles_x; ++tile) {
+      const float* row = target.inverse_depth + (std::ptrdiff_t{tile_row} * target.tiles_x + tile) * kTile * kTile +
+                         std::ptrdiff_t{y} * kTile;
+      for (int x = 0; x < kTile; ++x) {
+        // Rounded away from the sun: the part of a step that is cut off goes to the light.
+        const std::int32_t nearness = static_cast<std::int32_t>(row[x] * 65535.0F);
+        out[tile * kTile + x] = static_cast<std::uint16_t>(65535 - nearness - 32768);
+      }
+    }
+  }
+}
+
+void ClearRim(ShadowMap& map) {
+  constexpr std::uint16_t kNothing = 65535 - 32768;
+  for (int i = 0; i < kShadowSide; ++i) {
+    const std::ptrdiff_t last = kShadowSide - 1;
+    for (const std::ptrdiff_t at : {std::ptrdiff_t{i}, last * map.pitch + i, std::ptrdiff_t{i} * map.pitch,
+                                    std::ptrdiff_t{i} * map.pitch + last}) {
+      map.words[static_cast<std::size_t>(at)] = kNothing;
+    }
+  }
 }
 
 }  // namespace
 
-std::vector<std::uint32_t> DrawShadowMap(const RasterScene& scene, const internal::ShadowFrame& frame,
-                                         const Kernels& kernels) {
+ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const Kernels& kernels) {
   VisibilityBuffer buffer;
   const Target target = buffer.Clear(kShadowSide, kShadowSide, 0.0F, false);
-  const Vertices& v = scene.vertices();
+  const std::vector<base::Vec3> places = PlacesInMap(scene);
   std::vector<Corner> polygon;
-  for (std::size_t number = 0; number < scene.statics(); ++number) {
-    const RasterScene::Part& part = scene.parts()[number];
-    for (std::uint32_t t = part.first_triangle; t < part.first_triangle + part.triangles; ++t) {
-      std::array<base::Vec3, 3> p;  // texels, texels, nearness
+  for (const internal::Batch& batch : scene.statics) {
+    const internal::Level& full = batch.levels[0];
+    for (std::size_t index = full.first_index; index < std::size_t{full.first_index} + full.index_count; index += 3) {
+      std::array<base::Vec3, 3> p;
       std::array<Corner, 3> corners;
       for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t vertex = scene.corners(static_cast<int>(i))[t];
-        const Eigen::Vector4d at(v.x[vertex], v.y[vertex], v.z[vertex], 1.0);
-        p[i] = (frame.texture_from_world * at).head<3>();
-        p[i] = {p[i].x() * kShadowSide - 0.5, p[i].y() * kShadowSide - 0.5, 1.0 - p[i].z()};
+        p[i] = places[scene.indices[index + i]];
         corners[i].column = p[i].x();
         corners[i].row = p[i].y();
         corners[i].depth = 1.0;
@@ -85,12 +111,12 @@ std::vector<std::uint32_t> DrawShadowMap(const RasterScene& scene, const interna
       DrawPolygon(kernels, target, polygon, triangle);
     }
   }
-  std::vector<std::uint32_t> map(static_cast<std::size_t>(kShadowSide) * kShadowSide);
-  for (int y = 0; y < kShadowSide; ++y) {
-    for (int x = 0; x < kShadowSide; ++x) {
-      map[Morton(x, y)] = TexelAt(target, x, y) | TexelAt(target, x, y + 1) << 16;
-    }
-  }
+  ShadowMap map;
+  constexpr int kPadding = 32;  // words: rows that follow each other do not fall into the same cache sets
+  map.pitch = kShadowSide + kPadding;
+  map.words.resize(static_cast<std::size_t>(map.pitch) * kShadowSide);
+  for (int row = 0; row < target.tiles_y; ++row) CopyTiles(target, row, map);
+  ClearRim(map);
   return map;
 }
 

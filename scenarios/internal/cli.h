@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "base/config.h"
+#include "scenarios/dataset/dataset_writer.h"
 
 namespace alula::scenarios::internal {
 
 /// The command line, understood. This header is free of CLI11, which only cli.cpp includes: it is slow to compile.
 struct CommandLine {
-  enum class Verb { kRun, kList, kCheck, kCheckSensors, kBench };
+  enum class Verb { kRun, kExport, kList, kCheck, kCheckSensors, kBench };
   Verb verb = Verb::kList;
   std::vector<std::string> names;  // of scenarios, files or benchmarks
   std::optional<std::uint64_t> seed;
@@ -20,6 +21,7 @@ struct CommandLine {
   int workers = 1;
   std::string render = "auto";
   bool video = false;
+  std::optional<dataset::Format> dataset;  // of run and export
   bool quiet = false;
   bool json = false;
   std::filesystem::path json_file;  // of bench

@@ -65,6 +65,8 @@ class SensorSuite {
   /// Moves everything with available ≤ now to `out` (cleared first), in the order of stack::ArrivesBefore.
   void Collect(base::Time now, std::vector<stack::Measurement>& out);
 
+  /// What the IMU's next sample will carry; zero without an IMU.
+  ImuBias imu_bias() const { return imu_ ? ImuBias{imu_->gyro_bias(), imu_->accelerometer_bias()} : ImuBias{}; }
   /// Wall time spent on pictures by whichever thread drew them, ms.
   double render_ms() const;
 

@@ -22,7 +22,7 @@ struct Room {
 const std::vector<Room>& Rooms() {
   static const std::vector<Room> rooms = {
       {"base", {"base/"}, {"yaml-cpp"}},
-      {"geometry", {"base/", "geometry/"}, {"assimp"}},
+      {"geometry", {"base/", "geometry/"}, {"json", "png"}},
       {"stack/interface", {"base/", "stack/interface/"}, {}},
       {"stack", {"base/", "stack/"}, {"opencv", "ceres", "octomap", "ompl", "nanoflann", "fmt"}},
       {"worlds", {"base/", "geometry/", "worlds/"}, {"fmt"}},
@@ -49,7 +49,7 @@ struct Library {
 const std::vector<Library>& Libraries() {
   static const std::vector<Library> libraries = {
       {"yaml-cpp", {"yaml-cpp/"}, true},
-      {"assimp", {"assimp/"}, true},
+      {"png", {"png.h"}, true},
       {"bullet", {"bt", "Bullet", "LinearMath/", "bullet/"}, true},
       {"gl", {"GL/", "EGL/", "KHR/", "GLES"}, true},
       {"ceres", {"ceres/"}, true},

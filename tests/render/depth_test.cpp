@@ -17,13 +17,15 @@ using test::LookAt;
 struct TriangleSoup {
   std::vector<std::array<base::Vec3, 3>> triangles;
 
-  explicit TriangleSoup(const worlds::World& world) {
-    for (const worlds::Object& object : world.objects) {
-      const geometry::Mesh mesh = geometry::Tessellate(object.shape, object.texture_scale);
-      for (const auto& t : mesh.triangles) {
+  /// At the levels of detail that the view shows (detail_levels_test.cpp measures those against the full ones).
+  TriangleSoup(const internal::SceneGeometry& scene, const View& view) {
+    for (const internal::Batch& batch : scene.statics) {
+      const internal::Level& level =
+          internal::LevelFor(batch, view.X_WC.p.cast<float>(), std::max(view.intrinsics.fx, view.intrinsics.fy));
+      for (std::size_t index = level.first_index; index < level.first_index + level.index_count; index += 3) {
         std::array<base::Vec3, 3> corners;
         for (std::size_t i = 0; i < 3; ++i) {
-          corners[i] = object.X_WO * mesh.vertices[t[i]].position.cast<double>().eval();
+          corners[i] = scene.vertices[scene.indices[index + i]].position.cast<double>();
         }
         triangles.push_back(corners);
       }
@@ -113,7 +115,7 @@ TEST_P(DepthPass, SphereInClosedFormToItsTessellation) {
 // apart see different things) are left out.
 TEST_P(DepthPass, AgreesWithRayCastsOnRandomPoses) {
   const worlds::World world = test::Clutter(11);
-  const TriangleSoup soup(world);
+  const internal::SceneGeometry scene = internal::BuildScene(world, {});
   const auto renderer = Make(world);
   base::RandomStream random(5, "depth");
   int compared = 0;
@@ -121,6 +123,7 @@ TEST_P(DepthPass, AgreesWithRayCastsOnRandomPoses) {
   for (int pose = 0; pose < 8; ++pose) {
     const View view = LookAt(test::RandomPose(random, {-5, -5, 0.5}, {5, 5, 2.5}).p,
                              test::RandomPose(random, {-9, -9, 0.0}, {9, 9, 3.0}).p, random.Uniform(-0.5, 0.5));
+    const TriangleSoup soup(scene, view);
     DepthPicture depth;
     renderer->Depth(view, depth);
     for (int ray = 0; ray < 150; ++ray) {

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "render/internal/noise_kernel.h"
-
 namespace alula::render {
 namespace {
 
@@ -81,20 +79,6 @@ TEST(PixelNoise, StaysInRangeAtBothEnds) {
   ApplyPixelNoise(bright, 1, {4.0, 0.1});
   EXPECT_LT(MomentsOf(dark).mean, 4.0);
   EXPECT_GT(MomentsOf(bright).mean, 245.0);
-}
-
-TEST(PixelNoise, EveryInstructionSetGivesTheSameBytes) {
-#if defined(__x86_64__)
-  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "no AVX2 here";
-  std::vector<std::uint8_t> a(10'007);
-  for (std::size_t i = 0; i < a.size(); ++i) a[i] = static_cast<std::uint8_t>(i * 7);
-  std::vector<std::uint8_t> b = a;
-  internal::AddNoiseBaseline(a.data(), a.size(), 17, 23, 0.5F, 0.02F);
-  internal::AddNoiseAvx2(b.data(), b.size(), 17, 23, 0.5F, 0.02F);
-  EXPECT_TRUE(a == b);
-#else
-  GTEST_SKIP() << "one kernel on this machine";
-#endif
 }
 
 }  // namespace

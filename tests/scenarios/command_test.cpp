@@ -92,7 +92,7 @@ TEST(Command, BadInputIsOneLineAndExitsWithTwo) {
 }
 
 TEST(Command, HelpOfEveryVerb) {
-  for (const char* verb : {"run", "list", "check", "bench"}) {
+  for (const char* verb : {"run", "export", "list", "check", "bench"}) {
     const CommandResult help = Alula({verb, "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.out.find("--help"), std::string::npos);

@@ -28,8 +28,7 @@ SineMotion Sines() {
 
 std::vector<PrescribedConfig> Configs() {
   std::vector<PrescribedConfig> all;
-  for (const std::variant<PathMotion, SineMotion>& motion :
-       {std::variant<PathMotion, SineMotion>(Loop()), std::variant<PathMotion, SineMotion>(Sines())}) {
+  for (const MotionConfig& motion : {MotionConfig(Loop()), MotionConfig(Sines())}) {
     all.push_back({.standstill = 2, .motion = motion, .attitude = ThrustAttitude{}, .body = {}});
     all.push_back({.standstill = 2, .motion = motion, .attitude = SineAttitude{}, .body = {}});
   }
@@ -53,8 +52,7 @@ TEST(Prescribed, VelocityAndRatesAreTheDerivativesOfThePose) {
 TEST(Prescribed, MotionIsFourTimesSmooth) {
   // Acceleration and jerk as stated are the derivatives of velocity and acceleration, and the jerk has no corners:
   // its second difference over h shrinks with h².
-  for (const std::variant<PathMotion, SineMotion>& config :
-       {std::variant<PathMotion, SineMotion>(Loop()), std::variant<PathMotion, SineMotion>(Sines())}) {
+  for (const MotionConfig& config : {MotionConfig(Loop()), MotionConfig(Sines())}) {
     const PrescribedMotion motion(config, "vehicle0");
     const double h = 1e-4;
     for (double t = -0.5; t < motion.duration() + 0.5; t += 0.013) {
