@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 
 #include "scenarios/check/check_worlds.h"
 #include "stack/interface/camera_model.h"
@@ -25,20 +26,47 @@ Transform Aim(const stack::CameraIntrinsics& camera, const Vec2& pixel, double s
   return {base::Quat::FromTwoVectors(Vec3::UnitZ(), ray) * base::Exp(tilt), distance * ray};
 }
 
-/// As near to the pixel as it can be without leaving the picture.
+/// As near to the pixel as it can be without leaving the picture; smaller where it does not fit at all.
 Transform AimInside(const stack::CameraIntrinsics& camera, const Vec2& target, double share, const Vec3& tilt) {
   const Vec2 middle(camera.cx, camera.cy);
-  for (double along = 1.0; along > 0.0; along -= 0.02) {
-    const Transform X_CT = Aim(camera, middle + along * (target - middle), share, tilt);
-    if (BoardInside(camera, X_CT)) return X_CT;
+  for (; share > 0.1; share *= 0.93) {
+    for (double along = 1.0; along >= 0.0; along -= 0.02) {
+      const Transform X_CT = Aim(camera, middle + along * (target - middle), share, tilt);
+      if (BoardInside(camera, X_CT)) return X_CT;
+    }
   }
   return Aim(camera, middle, share, tilt);
 }
 
+constexpr int kAveraged = 4;  // frames of one view, against noise
+
+/// Frames of one view, added up.
+struct Sum {
+  Frame last;
+  std::vector<std::uint32_t> grey;
+  std::uint32_t count = 0;
+
+  void Add(std::vector<Frame> frames) {
+    for (Frame& frame : frames) {
+      grey.resize(frame.grey.size());
+      for (std::size_t i = 0; i < grey.size(); ++i) grey[i] += frame.grey[i];
+      last = std::move(frame);
+      ++count;
+    }
+  }
+  Frame Mean() {
+    for (std::size_t i = 0; i < grey.size(); ++i) {
+      last.grey[i] = static_cast<std::uint8_t>((grey[i] + count / 2) / count);
+    }
+    return std::move(last);
+  }
+};
+
 /// So many frames a pose that neither exposure, rolling nor an eye's offset reaches into the next one: an odd number.
 int FramesAPose(const Rig& isolated, const CameraGroup& group) {
   const sim::CameraConfig& camera = ConfigOf(isolated.sensors, Only(group));
-  const std::int64_t offset = group.camera ? 0 : std::abs(isolated.sensors.stereo->eye_offset.ns);
+  const bool pair = group.kind == CameraGroup::Kind::kStereo;
+  const std::int64_t offset = pair ? std::abs(isolated.sensors.stereo->eye_offset.ns) : 0;
   const double reach = 1e-9 * static_cast<double>(sim::HalfSpan(camera, camera.exposure).ns + offset) + 0.003;
   int frames = 1;
   while (0.5 * frames * camera.rate.Period() < reach) frames += 2;
@@ -79,7 +107,7 @@ bool BoardInside(const stack::CameraIntrinsics& camera, const Transform& X_CT) {
 }
 
 std::vector<Transform> BoardPoses(const stack::CameraIntrinsics& camera) {
-  constexpr double kSmall = 0.42, kLarge = 0.8;  // share of the picture's height
+  constexpr double kSmall = 0.5, kLarge = 0.9;  // share of the picture's height
   constexpr int kGrid = 4;
   std::vector<Transform> poses;
   const auto tilt_of = [](std::size_t n) {
@@ -101,8 +129,9 @@ std::vector<Transform> BoardPoses(const stack::CameraIntrinsics& camera) {
 
 BoardSession RecordBoard(const Rig& isolated, const CameraGroup& group, render::CameraRenderer& renderer) {
   const std::vector<CameraGeometry> cameras = GeometryOf(isolated, group);
-  const base::Rate rate = ConfigOf(isolated.sensors, Only(group)).rate;
-  const int hold = FramesAPose(isolated, group);
+  const sim::CameraConfig& config = ConfigOf(isolated.sensors, Only(group));
+  const base::Rate rate = config.rate;
+  const int settle = FramesAPose(isolated, group), hold = settle + kAveraged - 1;
   BoardSession session;
   for (const CameraGeometry& camera : cameras) {  // each eye has its turn
     for (const Transform& X_CT : BoardPoses(camera.intrinsics)) {
@@ -114,18 +143,20 @@ BoardSession RecordBoard(const Rig& isolated, const CameraGroup& group, render::
     const std::int64_t view = std::min(NearestFrame(rate, t) / hold, views - 1);
     return vehicles::BodyState{session.X_WB[static_cast<std::size_t>(view)], Vec3::Zero(), Vec3::Zero()};
   };
-  const base::Duration read_out = ConfigOf(isolated.sensors, Only(group)).read_out;
-  const base::Duration all = rate.SampleTime(views * hold) - base::Time{} + read_out + base::Milliseconds(60);
-  session.frames.assign(cameras.size(), std::vector<Frame>(session.X_WB.size()));
+  const base::Duration all = rate.SampleTime(views * hold) - base::Time{} + config.read_out + base::Milliseconds(60);
+  std::vector<std::vector<Sum>> sums(cameras.size(), std::vector<Sum>(session.X_WB.size()));
   Record(isolated, &renderer, motion, all, [&](stack::Measurement&& m) {
-    const auto view = static_cast<std::size_t>(m.seq) / hold;
-    if (m.seq % hold != static_cast<std::uint32_t>(hold / 2) || view >= session.X_WB.size()) return;
+    const std::size_t view = m.seq / static_cast<std::uint32_t>(hold);
+    const int within = static_cast<int>(m.seq % static_cast<std::uint32_t>(hold)) - settle / 2;
+    if (within < 0 || within >= kAveraged || view >= session.X_WB.size()) return;
     for (std::size_t eye = 0; eye < cameras.size(); ++eye) {
-      if (m.sensor != cameras[eye].sensor) continue;
-      std::vector<Frame> frame = FramesOf({m});
-      if (!frame.empty()) session.frames[eye][view] = std::move(frame.front());
+      if (m.sensor == cameras[eye].sensor) sums[eye][view].Add(FramesOf({m}));
     }
   });
+  for (std::vector<Sum>& eye : sums) {
+    session.frames.emplace_back();
+    for (Sum& sum : eye) session.frames.back().push_back(sum.Mean());
+  }
   return session;
 }
 

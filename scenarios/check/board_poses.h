@@ -24,7 +24,8 @@ struct BoardSession {
   std::vector<base::Transform> X_WB;       // pose of the body, by view
   std::vector<std::vector<Frame>> frames;  // by camera of the group, then by view; of a view that is missing: empty
 };
-/// Stands still at each pose for as many frames as exposure, rolling and offsets need; keeps the middle one.
+/// Stands still at each pose for as many frames as exposure, rolling and offsets need and some more, whose mean it
+/// keeps.
 BoardSession RecordBoard(const Rig& isolated, const CameraGroup& group, render::CameraRenderer& renderer);
 
 }  // namespace alula::scenarios::check

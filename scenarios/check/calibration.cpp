@@ -142,12 +142,18 @@ void AddErrors(const LensKind& kind, const Points2& views, const std::vector<cv:
   }
 }
 
+std::vector<Vec2> Corners(const std::vector<cv::Point2f>& points) {
+  std::vector<Vec2> corners;
+  for (const cv::Point2f& point : points) corners.emplace_back(point.x, point.y);
+  return corners;
+}
+
 /// Smallest distance between neighbours in a row or a column, px.
-double Spacing(const std::vector<cv::Point2f>& corners) {
+double Spacing(const std::vector<Vec2>& corners) {
   double least = std::numeric_limits<double>::infinity();
   for (int n = 0; n < kCorners; ++n) {
-    if (n % Board::kColumns > 0) least = std::min(least, cv::norm(corners[n] - corners[n - 1]));
-    if (n >= Board::kColumns) least = std::min(least, cv::norm(corners[n] - corners[n - Board::kColumns]));
+    if (n % Board::kColumns > 0) least = std::min(least, (corners[n] - corners[n - 1]).norm());
+    if (n >= Board::kColumns) least = std::min(least, (corners[n] - corners[n - Board::kColumns]).norm());
   }
   return least;
 }
@@ -156,12 +162,19 @@ double Spacing(const std::vector<cv::Point2f>& corners) {
 
 std::optional<std::vector<Vec2>> FindBoard(const Frame& frame, const std::vector<Vec2>& expected) {
   const cv::Mat image(frame.height, frame.width, CV_8UC1, const_cast<std::uint8_t*>(frame.grey.data()));
+  // Squares of few pixels are not found; pixel u lies at 2 u + ½ of a picture twice as large.
+  constexpr double kSmall = 11.0;  // px
+  const double scale = Spacing(expected) < kSmall ? 2.0 : 1.0;
+  cv::Mat enlarged = image;
+  if (scale > 1.0) cv::resize(image, enlarged, {}, scale, scale, cv::INTER_CUBIC);
   std::vector<cv::Point2f> corners;
-  if (!cv::findChessboardCorners(image, {Board::kColumns, Board::kRows}, corners)) return std::nullopt;
-  const int half = std::clamp(static_cast<int>(0.4 * Spacing(corners)), 2, 10);
+  if (!cv::findChessboardCorners(enlarged, {Board::kColumns, Board::kRows}, corners)) return std::nullopt;
+  for (cv::Point2f& corner : corners) {
+    corner = (corner - cv::Point2f(1.0F, 1.0F) * static_cast<float>(0.5 * (scale - 1.0))) / scale;
+  }
+  const int half = std::clamp(static_cast<int>(0.4 * Spacing(Corners(corners))), 2, 10);
   cv::cornerSubPix(image, corners, {half, half}, {-1, -1}, {cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 60, 1e-4});
-  std::vector<Vec2> found;
-  for (const cv::Point2f& corner : corners) found.emplace_back(corner.x, corner.y);
+  std::vector<Vec2> found = Corners(corners);
   double straight = 0.0, reversed = 0.0;
   for (std::size_t n = 0; n < found.size(); ++n) {
     straight += (found[n] - expected[n]).squaredNorm();

@@ -9,7 +9,7 @@
 namespace alula::scenarios::check {
 
 /// Inner corners of the board found in a picture, in the board's order; nothing where it is not found whole.
-/// `expected`: roughly where they should be; it tells the board's two ways round apart and nothing else.
+/// `expected`: roughly where they should be; it tells the board's two ways round apart and how small its squares are.
 std::optional<std::vector<base::Vec2>> FindBoard(const Frame& frame, const std::vector<base::Vec2>& expected);
 
 /// A camera as its pictures of the board say, from no prior knowledge but its kind of lens.

@@ -35,20 +35,28 @@ Frame FrameOf(const stack::Measurement& m, const stack::Image& image) {
 }  // namespace
 
 std::vector<CameraGroup> GroupsOf(const sim::SensorsConfig& sensors) {
+  using Kind = CameraGroup::Kind;
   std::vector<CameraGroup> groups;
-  if (sensors.stereo) groups.emplace_back();
-  for (std::size_t i = 0; i < sensors.cameras.size(); ++i) groups.push_back({i});
+  if (sensors.stereo) groups.push_back({Kind::kStereo, 0});
+  for (std::size_t i = 0; i < sensors.cameras.size(); ++i) groups.push_back({Kind::kCamera, i});
+  for (std::size_t i = 0; i < sensors.rgbd.size(); ++i) groups.push_back({Kind::kRgbd, i});
   return groups;
 }
 
-const sim::CameraConfig& ConfigOf(const sim::SensorsConfig& sensors, const CameraGroup& group) {
-  if (group.camera) return sensors.cameras[*group.camera];
-  return *sensors.stereo;
+sim::CameraConfig& ConfigOf(sim::SensorsConfig& sensors, const CameraGroup& group) {
+  switch (group.kind) {
+    case CameraGroup::Kind::kStereo:
+      return *sensors.stereo;
+    case CameraGroup::Kind::kCamera:
+      return sensors.cameras[group.index];
+    case CameraGroup::Kind::kRgbd:
+      break;
+  }
+  return sensors.rgbd[group.index];
 }
 
-sim::CameraConfig& ConfigOf(sim::SensorsConfig& sensors, const CameraGroup& group) {
-  if (group.camera) return sensors.cameras[*group.camera];
-  return *sensors.stereo;
+const sim::CameraConfig& ConfigOf(const sim::SensorsConfig& sensors, const CameraGroup& group) {
+  return ConfigOf(const_cast<sim::SensorsConfig&>(sensors), group);
 }
 
 Rig Isolate(const Rig& rig, const CameraGroup& group) {
@@ -58,12 +66,12 @@ Rig Isolate(const Rig& rig, const CameraGroup& group) {
   sensors.barometer.reset();
   sensors.position_reference.reset();
   sensors.battery_rate = sensors.status_rate = {1, 1};
-  if (group.camera) {
-    sensors.stereo.reset();
-    sensors.cameras = {rig.sensors.cameras[*group.camera]};
-  } else {
-    sensors.cameras.clear();
-  }
+  using Kind = CameraGroup::Kind;
+  if (group.kind != Kind::kStereo) sensors.stereo.reset();
+  sensors.cameras.clear();
+  sensors.rgbd.clear();
+  if (group.kind == Kind::kCamera) sensors.cameras = {rig.sensors.cameras[group.index]};
+  if (group.kind == Kind::kRgbd) sensors.rgbd = {rig.sensors.rgbd[group.index]};
   sim::CameraConfig& camera = ConfigOf(sensors, Only(group));
   camera.auto_exposure.reset();
   camera.faults = {};
@@ -84,8 +92,10 @@ std::vector<CameraGeometry> GeometryOf(const Rig& isolated, const CameraGroup& g
   std::vector<CameraGeometry> geometry;
   for (std::size_t eye = 0; eye < calibration.cameras.size(); ++eye) {
     const stack::CameraCalibration& camera = calibration.cameras[eye];
-    base::Transform X_BC =
-        group.camera ? sim::MountPose(config) : sim::EyePose(*isolated.sensors.stereo, static_cast<int>(eye));
+    if (camera.kind == stack::CameraKind::kDepth) continue;
+    base::Transform X_BC = group.kind == CameraGroup::Kind::kStereo
+                               ? sim::EyePose(*isolated.sensors.stereo, static_cast<int>(eye))
+                               : sim::MountPose(config);
     if (camera.gimbal) {
       const sim::GimbalConfig& gimbal = isolated.sensors.gimbals[static_cast<std::size_t>(*camera.gimbal)];
       const base::Vec3 held = gimbal.start.cwiseMax(gimbal.low).cwiseMin(gimbal.high);

@@ -10,18 +10,20 @@
 
 namespace alula::scenarios::check {
 
-/// Cameras that are recorded together: the stereo pair, or one of the further cameras.
+/// Cameras that are recorded together: the stereo pair, one of the further cameras, or an RGB-D camera.
 struct CameraGroup {
-  std::optional<std::size_t> camera;  // index into SensorsConfig::cameras; none: the stereo pair
+  enum class Kind : std::uint8_t { kStereo, kCamera, kRgbd };
+  Kind kind = Kind::kStereo;
+  std::size_t index = 0;  // into SensorsConfig::cameras or ::rgbd
 };
 std::vector<CameraGroup> GroupsOf(const sim::SensorsConfig& sensors);
 
-/// Optics and times of a group as configured.
+/// Optics and times of a group as configured; of RGB-D those of its colour camera.
 const sim::CameraConfig& ConfigOf(const sim::SensorsConfig& sensors, const CameraGroup& group);
 sim::CameraConfig& ConfigOf(sim::SensorsConfig& sensors, const CameraGroup& group);
 
-/// A rig with one group alone, which is `camera` 0 or the pair: a group of an isolated rig.
-inline CameraGroup Only(const CameraGroup& group) { return group.camera ? CameraGroup{0} : CameraGroup{}; }
+/// What the group is called in a rig that holds nothing else.
+inline CameraGroup Only(const CameraGroup& group) { return {group.kind, 0}; }
 
 /// The suite with this group alone: no other sensor, exposure fixed at its nominal length and gain 1, no frame lost,
 /// the vehicle out of sight, a gimbal held where it starts. Noise, lens, blur and rolling shutter stay.
@@ -37,7 +39,7 @@ struct CameraGeometry {
   stack::CameraIntrinsics intrinsics;
   base::Transform X_BC;
 };
-/// That of a group as the configuration of an isolated rig says.
+/// That of a group's grey, colour or infrared cameras as the configuration of an isolated rig says.
 std::vector<CameraGeometry> GeometryOf(const Rig& isolated, const CameraGroup& group);
 
 /// Pose of the body from which a camera stands at X_WC.

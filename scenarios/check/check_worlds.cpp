@@ -103,6 +103,16 @@ worlds::World StripedWall(double width) {
   return Wall(Paint(kTexels, 1, value), 10.0 * width, 2.0 * width);
 }
 
+worlds::World SheetBeforeWall(double width, double gap, double grey) {
+  constexpr double kHalf = 100.0;
+  worlds::World world = TwoGreys(grey / 3.0, grey / 3.0);
+  for (worlds::Object& sheet : world.objects) sheet.X_WO.p += ChartPose().q * base::Vec3(0.0, 0.0, gap);
+  world.materials.push_back(
+      {.name = "sheet", .colour = Eigen::Vector3f::Constant(static_cast<float>(grey)), .texture = nullptr});
+  world.objects.push_back(Sheet({-0.5 * width, -kHalf}, {0.5 * width, kHalf}, {0, 0}, {1, 1}, 2));
+  return world;
+}
+
 worlds::World TwoGreys(double left, double right) {
   const auto plain = [](double grey) { return Paint(1, 1, [grey](int, int) { return grey; }); };
   constexpr double kHalf = 100.0;

@@ -27,4 +27,7 @@ worlds::World StripedWall(double width);
 /// A wall that is plain grey of value `left` (share of full scale) for x < 0 and `right` beyond.
 worlds::World TwoGreys(double left, double right);
 
+/// A sheet `width` metres wide of this grey (share of full scale), and `gap` metres behind it a wall a third as bright.
+worlds::World SheetBeforeWall(double width, double gap, double grey);
+
 }  // namespace alula::scenarios::check

@@ -98,7 +98,9 @@ void AddFreezes(const CameraGeometry& camera, const sim::FrameFaultsConfig& clai
     if (i < frames.size() && frames[i].grey == frames[i - 1].grey) {
       ++run, ++frozen;
     } else {
-      if (run > 0.0 && i < frames.size()) shortest = std::min(shortest, run);
+      // A run at the very beginning or end may have been longer.
+      const bool whole = static_cast<double>(i) - run > 2.0 && i < frames.size();
+      if (run > 0.0 && whole) shortest = std::min(shortest, run);
       run = 0.0;
     }
   }

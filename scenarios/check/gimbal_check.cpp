@@ -28,6 +28,7 @@ Rig GimbalsOnly(const Rig& rig) {
   bench.sensors.position_reference.reset();
   bench.sensors.stereo.reset();
   bench.sensors.cameras.clear();
+  bench.sensors.rgbd.clear();
   bench.sensors.battery_rate = bench.sensors.status_rate = {1, 1};
   return bench;
 }

@@ -53,7 +53,7 @@ Axes RecordRest(const Rig& rig, base::Duration duration) {
 base::Duration RestNeeded(const stack::ImuNoise& noise) {
   double seconds = 600.0;
   const auto need = [&seconds](double white, double walk) {
-    if (walk > 0.0) seconds = std::max(seconds, 300.0 * std::sqrt(3.0) * white / walk);
+    if (walk > 0.0) seconds = std::max(seconds, 480.0 * std::sqrt(3.0) * white / walk);
   };
   need(noise.gyro_noise, noise.gyro_bias_walk);
   need(noise.accelerometer_noise, noise.accelerometer_bias_walk);

@@ -1,6 +1,7 @@
 #include "scenarios/check/sensor_checks.h"
 
 #include "scenarios/check/camera_bench.h"
+#include "scenarios/check/depth_check.h"
 #include "scenarios/check/exposure_check.h"
 #include "scenarios/check/frame_faults_check.h"
 #include "scenarios/check/gimbal_check.h"
@@ -32,6 +33,10 @@ void CheckCameras(const Rig& rig, const CameraGroup& group, const sim::SensorsCo
   const std::string& name = geometry.front().name;
   told(name + ": lens");
   const std::vector<CameraGeometry> measured = CheckLens(isolated, group, geometry, report);
+  if (group.kind == CameraGroup::Kind::kRgbd) {
+    told(name + ": depth");
+    CheckDepth(isolated, group, claimed.rgbd[group.index], report);
+  }
   told(name + ": photon transfer");
   CheckPhotonTransfer(isolated, config, measured, report);
   told(name + ": shutter");

@@ -188,8 +188,9 @@ std::vector<EdgeRow> FindEdge(const Frame& frame, const std::vector<double>& aro
 void CheckShutter(const Rig& isolated, const CameraGroup& group, const sim::SensorsConfig& claimed_sensors,
                   const std::vector<CameraGeometry>& cameras, Report& report) {
   const sim::CameraConfig& claimed = ConfigOf(claimed_sensors, group);
-  const base::Duration eye_offset = group.camera ? base::Duration{} : claimed_sensors.stereo->eye_offset;
-  const int every = group.camera ? 1 : claimed_sensors.stereo->eye_offset_every;
+  const bool pair = group.kind == CameraGroup::Kind::kStereo;
+  const base::Duration eye_offset = pair ? claimed_sensors.stereo->eye_offset : base::Duration{};
+  const int every = pair ? claimed_sensors.stereo->eye_offset_every : 1;
   const Rig rig = WithoutNoise(isolated, group);
   const stack::CameraIntrinsics& k = cameras.front().intrinsics;
   const double speed = SpeedFor(claimed, eye_offset);

@@ -17,6 +17,7 @@ Rig Stripped(const Rig& rig) {
   bench.sensors.imu.reset();
   bench.sensors.stereo.reset();
   bench.sensors.cameras.clear();
+  bench.sensors.rgbd.clear();
   bench.sensors.gimbals.clear();
   return bench;
 }

@@ -79,6 +79,10 @@ TEST(Command, BadInputIsOneLineAndExitsWithTwo) {
       {{"fly"}, "alula --help"},
       {{}, "alula --help"},
       {{"bench", "nothing"}, "no benchmark is called"},
+      {{"check"}, "files is required"},
+      {{"check", "sensors"}, "scenario is required"},
+      {{"check", "sensors", "hoover"}, "did you mean `hover`?"},
+      {{"check", "hover", "sensors", "hover"}, "takes one scenario"},
   };
   for (const BadInput& bad : table) {
     const CommandResult run = Alula(bad.arguments, {.directory = folder.path()});
@@ -163,6 +167,7 @@ TEST(Command, HelpOfEveryVerb) {
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_NE(help.out.find("--help"), std::string::npos);
   }
+  EXPECT_NE(Alula({"check", "sensors", "--help"}).out.find("--render"), std::string::npos);
   EXPECT_EQ(Alula({"--help"}).exit_code, 0);
 }
 
@@ -175,6 +180,18 @@ TEST(Command, InterruptLeavesNothingBehind) {
   EXPECT_EQ(run.exit_code, 130) << run.err;
   EXPECT_NE(run.err.find("interrupted"), std::string::npos);
   EXPECT_TRUE(IsEmpty(folder.path()));
+}
+
+TEST(Command, CheckSensorsMeasuresAndFindsOut) {
+  const CommandResult good = Alula({"check", "sensors", "hover", "--json"});
+  EXPECT_EQ(good.exit_code, 0) << good.out;
+  const nlohmann::json json = nlohmann::json::parse(good.out);
+  EXPECT_EQ(json.at("passed"), true);
+  EXPECT_GT(json.at("rows").size(), 20U);
+  // A gyro that saturates in its own noise does not have the noise density that is configured.
+  const CommandResult bad = Alula({"check", "sensors", "hover", "--set", "sensors.imu.gyro_range=1e-3 rad/s"});
+  EXPECT_EQ(bad.exit_code, 1) << bad.out << bad.err;
+  EXPECT_NE(bad.out.find("FAIL  vehicle0/imu"), std::string::npos) << bad.out;
 }
 
 TEST(Command, CheckSaysGood) {
