@@ -78,8 +78,9 @@ class CameraRenderer {
   virtual std::string Description() const = 0;
 };
 
-/// `maker`: "osmesa", "egl", "raster" (our own, on any processor, fast with AVX2), or "auto" (OSMesa where it is there,
-/// else EGL). Throws base::InputError for another word or where the maker is not available.
+/// `maker`: "osmesa", "egl", "raster" (our own, on any processor, fast with AVX2 and FMA), or "auto" (raster where the
+/// processor has those, else OSMesa where it is there, else EGL). Throws base::InputError for another word or where the
+/// maker is not available.
 std::unique_ptr<CameraRenderer> MakeRenderer(std::string_view maker, const worlds::World& world,
                                              std::span<const Mover> movers);
 

@@ -10,7 +10,6 @@ namespace {
 std::unique_ptr<internal::GlContext> MakeContext(std::string_view maker) {
   if (maker == "osmesa") return internal::MakeOsMesaContext();
   if (maker == "egl") return internal::MakeEglContext();
-  if (maker == "auto") return internal::HasOsMesa() ? internal::MakeOsMesaContext() : internal::MakeEglContext();
   throw base::InputError("renderer \"" + std::string(maker) + "\" is not known; it can be osmesa, egl, raster or auto");
 }
 
@@ -18,8 +17,9 @@ std::unique_ptr<internal::GlContext> MakeContext(std::string_view maker) {
 
 std::unique_ptr<CameraRenderer> MakeRenderer(std::string_view maker, const worlds::World& world,
                                              std::span<const Mover> movers) {
+  const raster::Kernels* avx2 = raster::Avx2KernelsOrNull();
+  if (maker == "auto") maker = avx2 != nullptr ? "raster" : internal::HasOsMesa() ? "osmesa" : "egl";
   if (maker == "raster") {
-    const raster::Kernels* avx2 = raster::Avx2KernelsOrNull();
     return std::make_unique<raster::RasterRenderer>(avx2 != nullptr ? *avx2 : raster::ScalarKernels(), world, movers);
   }
   return std::make_unique<internal::GlRenderer>(MakeContext(maker), world, movers, internal::GlRenderer::Options{});

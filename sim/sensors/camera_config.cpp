@@ -102,9 +102,11 @@ void Describe(base::Description& d, CameraConfig& c) {
           {.unit = "s", .meaning = "rolling shutter, from one row to the next", .min = 0, .max = 1e-3});
   d.Field("read_out", c.read_out,
           {.unit = "s", .meaning = "from the middle of the exposure to the stack", .min = 0, .max = 10});
+  d.Field("lamps", c.lamps, {.meaning = "that ride with it, in camera axes (x right, y down, z forward)"});
   d.Field("sees_vehicle", c.sees_vehicle, {.meaning = "the vehicle itself is drawn"});
   Describe(d, static_cast<render::SensorEffects&>(c));
   d.Field("faults", c.faults, {.meaning = "what happens to frames on the way"});
+  d.Check("lamps", [&c] { return c.lamps.size() > 8 ? std::string("are more than 8") : std::string(); });
   d.Check("fov", [&c] { return WrongOptics(c); });
   d.Check("read_out", [&c] { return WrongTimes(c); });
 }

@@ -10,6 +10,7 @@
 #include "render/sensor_effects.h"
 #include "render/structured_light.h"
 #include "stack/interface/calibration.h"
+#include "worlds/lighting.h"
 
 namespace alula::sim {
 
@@ -63,6 +64,7 @@ struct CameraConfig : render::SensorEffects {
   base::Duration row_delay{};  // rolling shutter: from one row to the next; stamps are of the middle
   base::Duration read_out = base::Milliseconds(10);
   bool sees_vehicle = false;
+  std::vector<worlds::Lamp> lamps;  // that ride with it, in camera axes: the illuminator of an infrared camera
   FrameFaultsConfig faults;
 };
 void Describe(base::Description& d, CameraConfig& c);

@@ -32,6 +32,12 @@ render::View SourceView(const Optics& optics, const render::Lens::Source& source
                     .draw_movers = optics.config.sees_vehicle};
   view.intrinsics.height = rows.count;
   view.intrinsics.cy -= rows.first;
+  view.infrared = optics.config.kind == stack::CameraKind::kInfrared;
+  for (worlds::Lamp lamp : optics.config.lamps) {
+    lamp.position = source.q_CS.conjugate() * lamp.position;
+    lamp.direction = source.q_CS.conjugate() * lamp.direction;
+    view.lamps.push_back(lamp);
+  }
   return view;
 }
 
