@@ -76,6 +76,11 @@ Rig Isolate(const Rig& rig, const CameraGroup& group) {
   camera.auto_exposure.reset();
   camera.faults = {};
   camera.sees_vehicle = false;
+  camera.lamps.clear();  // they would light the board unevenly
+  camera.dirt = {};
+  camera.glare = {};
+  camera.gamma = 1.0;  // the photon-transfer curve is that of the linear signal
+  camera.bits = 8;
   for (sim::GimbalConfig& gimbal : sensors.gimbals) gimbal.stabilised = false;
   return bench;
 }

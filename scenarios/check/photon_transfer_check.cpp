@@ -91,7 +91,9 @@ void CheckPhotonTransfer(const Rig& isolated, const sim::CameraConfig& claimed,
     report.Add(Compare(camera.name, "photon transfer: read noise", claimed.noise.read_sigma, read,
                        std::max(kShare * claimed.noise.read_sigma, kSigmas * read_sigma), "level"));
   }
-  report.Note("photon transfer: exposure control off (nominal exposure, gain 1)");
+  report.Note(
+      "photon transfer: exposure control off (nominal exposure, gain 1), and gamma, coarse bits, dirt, glare and "
+      "lamps");
 }
 
 }  // namespace alula::scenarios::check

@@ -71,7 +71,8 @@ class Film {
             .physics = physics_,
             .vehicle = vehicle_,
             .autopilot = nullptr,
-            .world = world_};
+            .world = world_,
+            .imu_bias = {}};
   }
   worlds::World world_;
   StillVehicle vehicle_;
