@@ -127,7 +127,7 @@ inline void Add(const Seen& a, const Seen& b, Difference& sum) {
 /// `compared`: share of the pixels that must be away from silhouettes.
 inline Difference ExpectAgreement(const worlds::World& world, const std::vector<Mover>& movers,
                                   const std::vector<Shot>& shots, double levels, double compared = 0.8) {
-  const auto gl = MakeRenderer("auto", world, movers);
+  const auto gl = MakeRenderer("osmesa", world, movers);
   const auto own = MakeRenderer("raster", world, movers);
   Difference sum;
   for (const Shot& shot : shots) Add(See(*gl, shot), See(*own, shot), sum);

@@ -109,7 +109,7 @@ TEST(Renderer, CullingDoesNotChangeThePicture) {
 }
 
 TEST(Renderer, SaysWhatItIsMadeOf) {
-  const auto renderer = MakeRenderer("auto", Clutter(5, 0), {});
+  const auto renderer = MakeRenderer("osmesa", Clutter(5, 0), {});
   EXPECT_NE(renderer->Description().find("OpenGL"), std::string::npos);
   EXPECT_EQ(MakeRenderer("raster", {}, {})->Description().substr(0, 7), "raster ");
 }
