@@ -106,8 +106,26 @@ struct alignas(64) TrianglePlanes {
   float reference_y;
   std::uint32_t frame;  // that they were made for
   std::uint32_t texture;
-  std::uint32_t sunny;  // the sun adds light somewhere on it
-  std::uint32_t unused[3];
+  std::uint32_t sunny;      // the sun adds light somewhere on it, as far as the shadow map must say
+  std::uint32_t shadowing;  // as ShadeJob's of the triangle
+  std::uint32_t unused[2];
+};
+
+/// What looks into the statics' shadow map would give: light, none, or a look is needed.
+enum class Shadowing : std::uint8_t { kMixed, kLit, kDark };
+inline constexpr std::uint32_t kFirstShadowingGrid = 3;  // as a triangle's shadowing: numbers of grids begin here
+
+/// By block of the shadow map, for a triangle that is neither lit nor dark all over: rows of columns from texel
+/// (x0, y0) on.
+struct ShadowingGrid {
+  std::int32_t x0, y0, columns, rows;
+  std::uint32_t first;  // place in the list of all blocks
+};
+inline constexpr int kShadowingBlock = 4;  // texels
+
+/// Texels of the shadow map, inclusive, where movers cast theirs.
+struct MoverShadow {
+  std::int32_t x0, y0, x1, y1;
 };
 
 struct ShadeJob {
@@ -115,6 +133,11 @@ struct ShadeJob {
   Vertices vertices;
   const std::uint32_t* corners[3];
   const std::uint32_t* texture_of_triangle;
+  const std::uint32_t* shadowing_of_triangle;  // a Shadowing, or kFirstShadowingGrid + number of a grid
+  const ShadowingGrid* shadowing_grids;
+  const Shadowing* shadowing_blocks;
+  const MoverShadow* mover_shadows;  // within these nothing is lit for certain
+  std::int32_t mover_shadow_count;
   const float* attributes;        // [kAttributes] a vertex; of statics
   const float* mover_attributes;  // likewise, of vertices from `first_mover_vertex` on
   std::uint32_t first_mover_vertex;

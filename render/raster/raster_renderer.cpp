@@ -204,6 +204,15 @@ ShadeJob RasterRenderer::JobFor(const View& view, int channels, const Target& ta
   job.vertices = vertices_.arrays();
   for (std::size_t i = 0; i < 3; ++i) job.corners[i] = scene_->corners(i);
   job.texture_of_triangle = scene_->texture_of_triangle();
+  job.shadowing_of_triangle = scene_->shadowing().of_triangle.data();
+  job.shadowing_grids = scene_->shadowing().grids.data();
+  job.shadowing_blocks = scene_->shadowing().blocks.data();
+  mover_regions_.clear();
+  for (const internal::ShadowRegion& region : mover_shadows_.regions()) {
+    mover_regions_.push_back({region.x0, region.y0, region.x1, region.y1});
+  }
+  job.mover_shadows = mover_regions_.data();
+  job.mover_shadow_count = static_cast<std::int32_t>(mover_regions_.size());
   job.attributes = scene_->attributes();
   job.mover_attributes = mover_attributes_.data();
   job.first_mover_vertex = scene_->first_mover_vertex();

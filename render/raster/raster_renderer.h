@@ -69,6 +69,7 @@ class RasterRenderer final : public CameraRenderer {
   std::vector<TrianglePlanes> planes_;
   std::vector<NormalPlanes> normal_planes_;
   std::vector<Lamp> lamps_;
+  std::vector<MoverShadow> mover_regions_;
   VisibilityBuffer buffer_;
   std::vector<std::uint32_t> to_clip_;
   std::vector<Corner> polygon_;

@@ -38,6 +38,7 @@ RasterScene::RasterScene(internal::SceneGeometry geometry, const Kernels& kernel
   }
   alpha_ = PackAlpha(geometry_.materials);
   shadow_map_ = DrawShadowMap(geometry_, alpha_, kernels);
+  shadowing_ = FindShadowing(geometry_, attributes_, shadow_map_);
 }
 
 void RasterScene::SetTriangles(const internal::Batch& batch, std::uint32_t instance) {

@@ -9,6 +9,7 @@
 #include "render/raster/kernels.h"
 #include "render/raster/packed_textures.h"
 #include "render/raster/shadow_map.h"
+#include "render/raster/shadowing.h"
 
 namespace alula::render::raster {
 
@@ -31,6 +32,7 @@ class RasterScene {
   const float* attributes() const { return attributes_.data(); }  // of the statics
   const float* normals() const { return normals_.data(); }        // of the statics, three floats each
   const ShadowMap& shadow_map() const { return shadow_map_; }     // of the statics
+  const ShadowingTable& shadowing() const { return shadowing_; }
   const PackedTextures& alpha() const { return alpha_; }
   /// Instance that a triangle belongs to: number of its object or mover + 1.
   std::uint32_t instance_of(std::uint32_t triangle) const { return instance_of_triangle_[triangle]; }
@@ -56,6 +58,7 @@ class RasterScene {
   std::uint32_t first_mover_vertex_ = 0;
   PackedTextures alpha_;
   ShadowMap shadow_map_;
+  ShadowingTable shadowing_;
   mutable std::mutex packing_;
   mutable std::array<std::optional<PackedTextures>, 4> textures_;  // by kind
 };

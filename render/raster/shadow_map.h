@@ -27,6 +27,8 @@ class MoverShadows {
   /// The movers stand at X_WM, in their order.
   const ShadowMap& Place(const internal::SceneGeometry& scene, const ShadowMap& statics, const PackedTextures& alpha,
                          const Kernels& kernels, std::span<const base::Transform> X_WM);
+  /// Where the movers' shadows lie.
+  const std::vector<internal::ShadowRegion>& regions() const { return regions_; }
 
  private:
   ShadowMap map_;

@@ -43,8 +43,8 @@ inline constexpr base::Time kEurocEpoch{1'000'000'000'000'000};
 /// 13.1 m), rgb.txt, depth.txt, accelerometer.txt, groundtruth.txt (pose of the optical frame of the camera of rgb/);
 /// besides, rgb.yaml and depth.yaml, which TUM lacks: sensor.yaml as EuRoC's, with that optical frame as body. Stamps
 /// are seconds of the run in true time: the cameras' time offsets, which the layout cannot state, are added.
-/// The depth camera is the first one; for rgb/ serves the colour camera nearest to it, without any the nearest grey one.
-/// Throws base::InputError where either is missing or sits on a gimbal.
+/// The depth camera is the first one; for rgb/ serves the colour camera nearest to it, without any the nearest grey
+/// one. Throws base::InputError where either is missing or sits on a gimbal.
 std::unique_ptr<DatasetWriter> MakeTumWriter(const std::filesystem::path& folder, const stack::Calibration& truth,
                                              std::string_view comment);
 

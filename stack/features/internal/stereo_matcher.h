@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "stack/features/stereo_rig.h"
 #include "stack/features/internal/pyramid.h"
+#include "stack/features/stereo_rig.h"
 
 namespace alula::stack::features {
 
