@@ -75,9 +75,8 @@ std::vector<Between> Stretch(int from_size, int to_size) {
 
 Texture internal::ParseTexture(std::string_view bytes, const fs::path& file) {
   const Picture from = ReadPng(bytes, file);
-  for (std::size_t i = 3; i < from.rgba.size(); i += 4) {
-    if (from.rgba[i] != 255) FailIn(file, "has transparent texels; only opaque textures are drawn");
-  }
+  bool opaque = true;
+  for (std::size_t i = 3; i < from.rgba.size(); i += 4) opaque = opaque && from.rgba[i] >= 128;
   Texture texture;
   texture.width = static_cast<int>(std::bit_ceil(static_cast<unsigned>(from.width)));
   texture.height = static_cast<int>(std::bit_ceil(static_cast<unsigned>(from.height)));
@@ -89,13 +88,14 @@ Texture internal::ParseTexture(std::string_view bytes, const fs::path& file) {
     const std::uint8_t* upper = from.rgba.data() + 4 * width * static_cast<std::size_t>(row->first);
     const std::uint8_t* lower = from.rgba.data() + 4 * width * static_cast<std::size_t>(row->second);
     for (const Between& column : columns) {
-      for (int c = 0; c < 3; ++c) {
+      for (int c = 0; c < (opaque ? 3 : 4); ++c) {
         const auto across = [&](const std::uint8_t* line) {
           const float a = line[4 * column.first + c];
           return a + column.share * (static_cast<float>(line[4 * column.second + c]) - a);
         };
         const float above = across(upper);
-        texture.rgb.push_back(static_cast<std::uint8_t>(std::lround(above + row->share * (across(lower) - above))));
+        const auto value = static_cast<std::uint8_t>(std::lround(above + row->share * (across(lower) - above)));
+        (c < 3 ? texture.rgb : texture.alpha).push_back(value);
       }
     }
   }

@@ -71,6 +71,8 @@ class CameraRenderer {
   virtual void Colour(const View& view, Picture& out) = 0;
   virtual void Depth(const View& view, DepthPicture& out) = 0;
   virtual void Surface(const View& view, SurfacePicture& out) = 0;
+  /// Whether anything of that class is in the world or moves in it.
+  virtual bool Has(worlds::SemanticClass semantic) const = 0;
   /// A second renderer of the same scene, for another thread at the same time; what never changes is shared. Its movers
   /// stand at identity until they are placed in it too. Throws as MakeRenderer does.
   virtual std::unique_ptr<CameraRenderer> Twin() const = 0;

@@ -62,7 +62,7 @@ class SceneBuilder {
   void AddGround() {
     const double half = 0.5 * config_.ground.size;
     AddObject(world_, "ground", geometry::Box{{half, half, 0.25}}, {base::Quat::Identity(), {0.0, 0.0, -0.25}},
-              MaterialOf(config_.ground.material), config_.ground.material.texture_scale);
+              MaterialOf(config_.ground.material), config_.ground.material.texture_scale, SemanticClass::kGround);
   }
 
   void AddThing(const SceneObject& object, std::size_t index) {
@@ -72,8 +72,8 @@ class SceneBuilder {
                              "`" + name + "` is taken; give each object a name of its own");
     }
     const base::Transform X_WO{base::FromYawPitchRoll(object.yaw, object.pitch, object.roll), object.position};
-    const std::size_t at =
-        AddObject(world_, name, ShapeOf(object), X_WO, MaterialOf(object.material), object.material.texture_scale);
+    const std::size_t at = AddObject(world_, name, ShapeOf(object), X_WO, MaterialOf(object.material),
+                                     object.material.texture_scale, object.semantic);
     world_.objects[at].collides = object.collides;
   }
 

@@ -69,6 +69,7 @@ struct SceneObject {
   double pitch = 0.0;
   double roll = 0.0;
   SceneMaterial material;
+  SemanticClass semantic = SemanticClass::kObstacle;
   bool collides = true;
   base::Origin name_origin;
 };

@@ -67,6 +67,12 @@ void Describe(base::Description& d, SceneObject& c) {
   Angle(d, "pitch", c.pitch, "about its y axis, before yaw");
   Angle(d, "roll", c.roll, "about its x axis, before pitch");
   d.Field("material", c.material, {.meaning = "how it looks"});
+  d.Field("class", c.semantic,
+          {.meaning = "what it is to pictures of classes; a depth camera's pattern does not come back from glass",
+           .choices = {std::begin(kSemanticNames), std::end(kSemanticNames)}});
+  d.Check("class", [&c] {
+    return c.semantic == SemanticClass::kSky ? std::string("cannot be sky: nothing is seen there") : std::string();
+  });
   d.Field("collides", c.collides, {.meaning = "whether it can be hit"});
 }
 

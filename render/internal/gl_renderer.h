@@ -33,6 +33,7 @@ class GlRenderer final : public CameraRenderer {
   void Colour(const View& view, Picture& out) override;
   void Depth(const View& view, DepthPicture& out) override;
   void Surface(const View& view, SurfacePicture& out) override;
+  bool Has(worlds::SemanticClass semantic) const override { return geometry_->Has(semantic); }
   std::string Description() const override { return description_; }
 
  private:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -46,6 +47,10 @@ struct SceneGeometry {
   std::vector<worlds::SemanticClass> classes;  // by instance
   worlds::Light light;
   ShadowFrame shadow;  // of the statics
+
+  bool Has(worlds::SemanticClass semantic) const {
+    return std::find(classes.begin(), classes.end(), semantic) != classes.end();
+  }
 };
 
 /// Tessellates the world and the movers. Throws base::FaultError for an object whose material does not exist, and

@@ -28,6 +28,7 @@ class RasterRenderer final : public CameraRenderer {
   void Colour(const View& view, Picture& out) override { Paint(view, 3, out); }
   void Depth(const View& view, DepthPicture& out) override;
   void Surface(const View& view, SurfacePicture& out) override;
+  bool Has(worlds::SemanticClass semantic) const override { return scene_->geometry().Has(semantic); }
   std::string Description() const override { return std::string("raster ") + kernels_->name; }
 
  private:

@@ -56,6 +56,29 @@ std::vector<bool> Seen(const Views& views) {
   return seen;
 }
 
+/// Empties views whose corners lie much farther from the model than those of most views: the search for a corner has
+/// settled on something else there. A lens that is not what it is taken for spoils all views alike, and they stay.
+bool SetOutliersAside(const CalibratedCamera& camera, Views& views) {
+  constexpr double kTimes = 5.0;  // the median view's error
+  std::vector<double> errors(views.size(), 0.0), found;
+  std::size_t pose = 0;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i].empty()) continue;
+    const std::vector<Vec2> expected = ProjectBoard(camera.intrinsics, camera.X_CT[pose++]);
+    for (std::size_t n = 0; n < expected.size(); ++n) errors[i] += (views[i][n] - expected[n]).squaredNorm();
+    found.push_back(errors[i]);
+  }
+  std::nth_element(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(found.size() / 2), found.end());
+  const double most = kTimes * kTimes * found[found.size() / 2];
+  bool any = false;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (errors[i] <= most) continue;
+    views[i].clear();
+    any = true;
+  }
+  return any;
+}
+
 /// The tangential coefficients go together; k3 and k4 are sought where they are configured.
 LensKind KindOf(const stack::CameraIntrinsics& claimed) {
   const std::array<double, 5>& k = claimed.distortion;
@@ -65,11 +88,25 @@ LensKind KindOf(const stack::CameraIntrinsics& claimed) {
                   : std::array<bool, 5>{true, true, true, true, k[4] != 0.0}};
 }
 
-/// Mean and largest distance between the pixels that two models give to one ray, over the picture, once the measured
-/// camera is turned so that they fit best: a shift of the centre is a turn of the mount, which has a row of its own.
+/// Mean and largest distance between the pixels that two models give to one ray, over the picture as far from the axis
+/// as corners were found (beyond, coefficients are not measured but extrapolated), once the measured camera is turned
+/// so that they fit best: a shift of the centre is a turn of the mount, which has a row of its own.
 struct Difference {
   double mean = 0.0, largest = 0.0;
+  double share = 0.0;  // of the picture
 };
+
+/// The greatest angle to the axis at which a corner was found, rad.
+double ReachOf(const Views& views, const stack::CameraIntrinsics& claimed) {
+  double reach = 0.0;
+  for (const auto& corners : views) {
+    for (const Vec2& corner : corners) {
+      const Vec3 ray = stack::Ray(claimed, corner);
+      if (ray.allFinite()) reach = std::max(reach, std::atan2(ray.head<2>().norm(), ray.z()));
+    }
+  }
+  return reach;
+}
 
 /// Pixels of the measured model for rays turned by `turn`, less those of the claimed one; two rows a ray.
 Eigen::VectorXd PixelDifferences(const stack::CameraIntrinsics& measured, const std::vector<Vec2>& pixels,
@@ -82,15 +119,18 @@ Eigen::VectorXd PixelDifferences(const stack::CameraIntrinsics& measured, const 
   return differences;
 }
 
-Difference DifferenceOf(const stack::CameraIntrinsics& claimed, const stack::CameraIntrinsics& measured) {
+Difference DifferenceOf(const stack::CameraIntrinsics& claimed, const stack::CameraIntrinsics& measured, double reach) {
   constexpr int kSteps = 24;
   std::vector<Vec2> pixels;
   std::vector<Vec3> rays;
+  double inside = 0.0;
   for (int i = 0; i <= kSteps; ++i) {
     for (int j = 0; j <= kSteps; ++j) {
       const Vec2 pixel((claimed.width - 1.0) * i / kSteps, (claimed.height - 1.0) * j / kSteps);
       const Vec3 ray = stack::Ray(claimed, pixel);
       if (!ray.allFinite() || !stack::Project(measured, ray).allFinite()) continue;
+      ++inside;
+      if (std::atan2(ray.head<2>().norm(), ray.z()) > reach) continue;
       pixels.push_back(pixel);
       rays.push_back(ray);
     }
@@ -108,7 +148,7 @@ Difference DifferenceOf(const stack::CameraIntrinsics& claimed, const stack::Cam
     turn -= LeastSquares(J, PixelDifferences(measured, pixels, rays, turn)).x;
   }
   const Eigen::VectorXd left = PixelDifferences(measured, pixels, rays, turn);
-  Difference difference;
+  Difference difference{.share = static_cast<double>(pixels.size()) / inside};
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     const double distance = left.segment<2>(2 * static_cast<Eigen::Index>(i)).norm();
     difference.mean += distance / static_cast<double>(pixels.size());
@@ -117,7 +157,7 @@ Difference DifferenceOf(const stack::CameraIntrinsics& claimed, const stack::Cam
   return difference;
 }
 
-void AddOptics(const CameraGeometry& claimed, const CalibratedCamera& found, Report& report) {
+void AddOptics(const CameraGeometry& claimed, const CalibratedCamera& found, double reach, Report& report) {
   const stack::CameraIntrinsics &c = claimed.intrinsics, &m = found.intrinsics;
   // Corners are found to some hundredths of a pixel, with errors that are not all random: the floors.
   const auto add = [&](const char* name, double configured, double measured, double sigma, double floor,
@@ -137,7 +177,8 @@ void AddOptics(const CameraGeometry& claimed, const CalibratedCamera& found, Rep
     add(fisheye ? kFisheye[i] : kBrown[i], c.distortion[i], m.distortion[i], found.distortion_sigma[i], 1e-4, "1");
   }
   report.Add(Compare(claimed.name, "reprojection RMSE", 0.0, found.rmse, 0.1, "px"));
-  const Difference difference = DifferenceOf(c, m);
+  const Difference difference = DifferenceOf(c, m, reach);
+  report.Add(Compare(claimed.name, "share of the picture within the corners' reach", 1.0, difference.share, 0.35, "1"));
   report.Add(Compare(claimed.name, "lens model's difference, mean", 0.0, difference.mean, 0.15, "px"));
   report.Add(Compare(claimed.name, "lens model's difference, largest", 0.0, difference.largest, 0.4, "px"));
 }
@@ -246,15 +287,25 @@ std::vector<CameraGeometry> CheckLens(const Rig& isolated, const CameraGroup& gr
   std::vector<EyeViews> eyes;
   for (std::size_t eye = 0; eye < claimed.size(); ++eye) {
     Views corners = FindBoards(session, eye, claimed[eye]);
-    const std::vector<bool> seen = Seen(corners);
-    const Views found = Where(corners, seen);
-    if (found.size() < kLeastViews) {
+    const auto enough = [&] {
+      const Views found = Where(corners, Seen(corners));
+      if (found.size() >= kLeastViews) return true;
       report.Add(Compare(claimed[eye].name, "views of the board that are found", kLeastViews,
                          static_cast<double>(found.size()), 0.0, "1"));
-      return claimed;
+      return false;
+    };
+    const auto calibrate = [&] {
+      return CalibrateCamera(KindOf(claimed[eye].intrinsics), Where(corners, Seen(corners)));
+    };
+    if (!enough()) return claimed;
+    CalibratedCamera camera = calibrate();
+    if (SetOutliersAside(camera, corners)) {
+      if (!enough()) return claimed;
+      camera = calibrate();
     }
-    const CalibratedCamera camera = CalibrateCamera(KindOf(claimed[eye].intrinsics), found);
-    AddOptics(claimed[eye], camera, report);
+    const std::vector<bool> seen = Seen(corners);
+    const Views found = Where(corners, seen);
+    AddOptics(claimed[eye], camera, ReachOf(found, claimed[eye].intrinsics), report);
     std::vector<Transform> mounts;
     const std::vector<Transform> bodies = Where(session.X_WB, seen);
     for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -121,6 +121,17 @@ std::vector<render::GlareLight> SunInView(const Optics& optics, const base::Tran
   return {{to_sun_C, static_cast<double>(open) / (kSide * kSide)}};
 }
 
+/// Pixels that show glass, one byte each; empty where the world has none.
+std::vector<std::uint8_t> GlassIn(const render::View& view, render::CameraRenderer& renderer) {
+  if (!renderer.Has(worlds::SemanticClass::kGlass)) return {};
+  render::SurfacePicture surface;
+  renderer.Surface(view, surface);
+  std::vector<std::uint8_t> glass;
+  glass.reserve(surface.classes.size());
+  for (const worlds::SemanticClass c : surface.classes) glass.push_back(c == worlds::SemanticClass::kGlass ? 1 : 0);
+  return glass;
+}
+
 }  // namespace
 
 Optics MakeOptics(const CameraConfig& config, const stack::CameraIntrinsics& intrinsics,
@@ -150,10 +161,11 @@ stack::DepthImage TakeDepth(const DepthOptics& optics, const Exposure& exposure,
   renderer.Depth(view, depth);
   const bool may_drown = optics.config.light.blinding <= 1.0;
   if (may_drown) renderer.Grey(view, ambient);
+  const std::vector<std::uint8_t> glass = GlassIn(view, renderer);
   stack::DepthImage image;
-  std::vector<std::uint16_t> millimetres =
-      render::MeasureDepth(depth, optics.intrinsics.fx, may_drown ? &ambient : nullptr, nullptr, optics.config.light,
-                           KeyOf(optics.seed, optics.name, exposure.seq));
+  std::vector<std::uint16_t> millimetres = render::MeasureDepth(
+      depth, optics.intrinsics.fx, may_drown ? &ambient : nullptr, glass.empty() ? nullptr : &glass,
+      optics.config.light, KeyOf(optics.seed, optics.name, exposure.seq));
   const stack::CameraIntrinsics& seen = optics.registered ? *optics.registered : optics.intrinsics;
   if (optics.registered) {
     millimetres = render::RegisterDepth(millimetres, optics.intrinsics, *optics.registered, optics.X_CD);

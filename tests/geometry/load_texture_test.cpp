@@ -73,10 +73,12 @@ TEST_F(LoadTextureTest, OtherSizesAreStretchedAcrossTheRim) {
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(texture.rgb[3 * i], wanted[i]);
 }
 
-TEST_F(LoadTextureTest, OpaqueAlphaPassesTransparentDoesNot) {
-  EXPECT_EQ(LoadTexture(WritePng(1, 1, PNG_FORMAT_RGBA, {9, 8, 7, 255})).rgb, Bytes({9, 8, 7}));
-  EXPECT_EQ(ErrorOf(WritePng(1, 1, PNG_FORMAT_RGBA, {9, 8, 7, 254})),
-            "has transparent texels; only opaque textures are drawn");
+TEST_F(LoadTextureTest, HolesAreWhereAlphaIsBelowHalf) {
+  const Texture leaf = LoadTexture(WritePng(2, 1, PNG_FORMAT_RGBA, {9, 8, 7, 255, 6, 5, 4, 30}));
+  EXPECT_EQ(leaf.rgb, Bytes({9, 8, 7, 6, 5, 4}));
+  EXPECT_EQ(leaf.alpha, Bytes({255, 30}));
+  const Texture hazy = LoadTexture(WritePng(2, 1, PNG_FORMAT_RGBA, {9, 8, 7, 255, 6, 5, 4, 128}));
+  EXPECT_TRUE(hazy.alpha.empty());  // no holes: nothing to look up
 }
 
 TEST_F(LoadTextureTest, WhatIsNoTexture) {

@@ -234,6 +234,37 @@ TEST(Cameras, RgbdMeasuresDepthInThePixelsItSays) {
   }
 }
 
+/// The pattern of a depth camera does not come back from glass; the ground about it is measured as before.
+TEST(Cameras, RgbdMeasuresNoDepthOnGlass) {
+  worlds::World world = testing::GroundAndCrate();
+  SensorsConfig config;
+  config.rgbd.resize(1);
+  config.rgbd[0].name = "front";
+  config.rgbd[0].depth.registered = false;
+  config.rgbd[0].depth.light.farthest = 5;
+  const auto measured = [&] {
+    const auto renderer = render::MakeRenderer("raster", world, {});
+    std::vector<std::uint16_t> first;
+    for (const stack::Measurement& m : Record(config, *renderer, 1)) {
+      const auto* image = std::get_if<stack::DepthImage>(&m.data);
+      if (image != nullptr && first.empty()) first = *image->millimetres;
+    }
+    return first;
+  };
+  const std::vector<std::uint16_t> wood = measured();
+  world.objects[1].semantic = worlds::SemanticClass::kGlass;
+  const std::vector<std::uint16_t> glass = measured();
+  ASSERT_EQ(wood.size(), glass.size());
+  std::size_t lost = 0, kept = 0;
+  for (std::size_t i = 0; i < wood.size(); ++i) {
+    lost += wood[i] != 0 && glass[i] == 0;
+    kept += wood[i] != 0 && glass[i] == wood[i];
+    EXPECT_TRUE(glass[i] == 0 || glass[i] == wood[i]);
+  }
+  EXPECT_GT(lost, wood.size() / 50);
+  EXPECT_GT(kept, wood.size() / 50);
+}
+
 /// What is lost does not come, what is stuck shows the frame before, what is late comes late.
 TEST(Cameras, FramesAreLostStuckAndLate) {
   const worlds::World world = testing::GroundAndCrate();

@@ -74,6 +74,7 @@ objects:
     position: [0 m, 5 m, 1.5 m]
     material: {texture: ./tiles.png}
     collides: false
+    class: glass
   - {shape: {type: capsule, radius: 0.25 m, height: 2 m}, material: {pattern: brick}}
 gates:
   - {position: [5 m, 0 m, 2 m], yaw: 30 deg}
@@ -97,6 +98,9 @@ TEST_F(SceneTest, IsBuiltAsDescribed) {
   EXPECT_EQ(world.objects[2].name, "object1");
   EXPECT_EQ(std::get<geometry::Box>(world.objects[2].shape).half_extents, base::Vec3(0.5, 1.0, 1.5));
   EXPECT_FALSE(world.objects[2].collides);
+  EXPECT_EQ(world.objects[0].semantic, SemanticClass::kGround);
+  EXPECT_EQ(world.objects[1].semantic, SemanticClass::kObstacle);
+  EXPECT_EQ(world.objects[2].semantic, SemanticClass::kGlass);
   EXPECT_EQ(std::get<geometry::Capsule>(world.objects[3].shape).half_height, 0.75);
 
   ASSERT_EQ(world.gates.size(), 1U);
