@@ -39,7 +39,7 @@ std::string WrongTimes(const CameraConfig& c, base::Duration late = {}) {
   const std::int64_t half = longest.ns / 2 + c.row_delay.ns * (c.height - 1) / 2;
   if (c.read_out.ns < half + late.ns) {
     return "must be at least half the exposure, half the rolling of the rows and the eye's offset: " +
-           std::to_string(half + late.ns) + " ns";
+           std::to_string((half + late.ns + 999) / 1000) + " us";
   }
   if (2 * half > static_cast<std::int64_t>(c.rate.Period() * 1e9)) {
     return "exposure and rolling of the rows do not fit into the time of a frame";
@@ -92,7 +92,8 @@ void Describe(base::Description& d, CameraConfig& c) {
   d.Field("pitch", c.pitch,
           {.unit = "rad", .meaning = "optical axis below the mount's horizon", .min = -1.6, .max = 1.6});
   d.Field("roll", c.roll, {.unit = "rad", .meaning = "about the optical axis", .min = -3.2, .max = 3.2});
-  d.Field("gimbal", c.gimbal, {.meaning = "name of the gimbal that it sits on; none: the body"});
+  d.Field("gimbal", c.gimbal,
+          {.meaning = "name of the gimbal that it sits on; none: the body", .origin = &c.gimbal_origin});
   d.Field(
       "exposure", c.exposure,
       {.unit = "s", .meaning = "length that the light is set for; stamps are of its middle", .min = 1e-6, .max = 1});

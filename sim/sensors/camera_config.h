@@ -53,11 +53,12 @@ struct CameraConfig : render::SensorEffects {
   int height = 480;                 // px
   double fov = 1.3962634015954636;  // across the width, rad (80 deg)
   LensConfig lens;
-  base::Vec3 position{0.10, 0.0, -0.02};            // m
-  double yaw = 0.0;                                 // to the left, rad
-  double pitch = 0.0;                               // below the horizon of the mount, rad
-  double roll = 0.0;                                // rad
-  std::string gimbal;                               // the one that it sits on; none: the body
+  base::Vec3 position{0.10, 0.0, -0.02};  // m
+  double yaw = 0.0;                       // to the left, rad
+  double pitch = 0.0;                     // below the horizon of the mount, rad
+  double roll = 0.0;                      // rad
+  std::string gimbal;                     // the one that it sits on; none: the body
+  base::Origin gimbal_origin{};
   base::Duration exposure = base::Milliseconds(4);  // stamps are of its middle; the light is set for this length
   std::optional<AutoExposureConfig> auto_exposure;
   bool motion_blur = false;

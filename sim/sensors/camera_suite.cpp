@@ -21,9 +21,11 @@ std::optional<int> GimbalNumber(const CamerasConfig& config, const CameraConfig&
     if (gimbal.name == camera.gimbal) return static_cast<int>(names.size());
     names.push_back(gimbal.name);
   }
+  const base::Origin& origin = camera.gimbal_origin;
   throw base::InputError(
-      "sensors: no gimbal is called '" + camera.gimbal + "'" +
-      (names.empty() ? std::string("; there is none") : "; " + base::Suggestion(camera.gimbal, names, "gimbals")));
+      origin.where, origin.path,
+      "no gimbal is called '" + camera.gimbal + "'" +
+          (names.empty() ? std::string("; there is none") : "; " + base::Suggestion(camera.gimbal, names, "gimbals")));
 }
 
 stack::CameraCalibration Calibrate(const CamerasConfig& config, const CameraConfig& camera, const base::Transform& X_MC,
