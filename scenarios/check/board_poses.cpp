@@ -2,10 +2,10 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <utility>
 
 #include "scenarios/check/check_worlds.h"
+#include "scenarios/check/rig.h"
 #include "stack/interface/camera_model.h"
 
 namespace alula::scenarios::check {
@@ -15,7 +15,6 @@ using base::Transform;
 using base::Vec2;
 using base::Vec3;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kMargin = 3.0;  // px between border and edge of the picture
 
 /// The board with its middle on the ray of a pixel, square to the ray but for a tilt, `share` of the picture's height

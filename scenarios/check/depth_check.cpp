@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "scenarios/check/check_worlds.h"
@@ -15,7 +14,6 @@ namespace {
 using base::Transform;
 using base::Vec3;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 /// A frame of depth and the colour frame of the same number.

@@ -22,13 +22,9 @@ struct Reading {
 
 /// The gimbals alone, without cameras.
 Rig GimbalsOnly(const Rig& rig) {
-  Rig bench = rig;
-  bench.sensors.imu.reset();
+  Rig bench = WithoutCamerasAndImu(rig);
   bench.sensors.barometer.reset();
   bench.sensors.position_reference.reset();
-  bench.sensors.stereo.reset();
-  bench.sensors.cameras.clear();
-  bench.sensors.rgbd.clear();
   bench.sensors.battery_rate = bench.sensors.status_rate = {1, 1};
   return bench;
 }

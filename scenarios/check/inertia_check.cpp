@@ -15,7 +15,6 @@ namespace {
 using base::Mat3;
 using base::Vec3;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr const char* kName = "vehicle0/imu";
 
 /// The inertial unit alone.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <utility>
 
@@ -20,7 +19,6 @@ using base::Transform;
 using base::Vec2;
 using base::Vec3;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kLeastViews = 12;
 

@@ -5,6 +5,14 @@
 
 namespace alula::scenarios::check {
 
+Rig WithoutCamerasAndImu(Rig rig) {
+  rig.sensors.imu.reset();
+  rig.sensors.stereo.reset();
+  rig.sensors.cameras.clear();
+  rig.sensors.rgbd.clear();
+  return rig;
+}
+
 Motion Rest(const base::Transform& X_WB) {
   return [X_WB](base::Time) { return vehicles::BodyState{X_WB, base::Vec3::Zero(), base::Vec3::Zero()}; };
 }

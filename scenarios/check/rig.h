@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,8 @@ namespace alula::scenarios::check {
 /// The vehicle's name: streams of noise are those of a run.
 inline constexpr const char* kVehicle = "vehicle0";
 
+inline constexpr double kDegree = std::numbers::pi / 180.0;
+
 /// What is put on the test bench: the suite of a scenario, on its vehicle.
 struct Rig {
   sim::SensorsConfig sensors;
@@ -24,6 +27,9 @@ struct Rig {
   std::uint64_t seed = 1;
   std::string render = "auto";
 };
+
+/// Without cameras and without the inertial unit: all that takes time.
+Rig WithoutCamerasAndImu(Rig rig);
 
 /// The motion that the bench imposes: state of the body at a time.
 using Motion = std::function<vehicles::BodyState(base::Time)>;

@@ -1,32 +1,22 @@
 #include "scenarios/check/small_sensors_check.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "scenarios/check/statistics.h"
 
 namespace alula::scenarios::check {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSamples = 4000.0;  // sigma to 1.1 %, so that a tolerance of four errors is 4.5 %
 
-/// What one kind of sensor says, the suite stripped of all that takes time.
-Rig Stripped(const Rig& rig) {
-  Rig bench = rig;
-  bench.sensors.imu.reset();
-  bench.sensors.stereo.reset();
-  bench.sensors.cameras.clear();
-  bench.sensors.rgbd.clear();
-  bench.sensors.gimbals.clear();
-  return bench;
-}
-
+/// What one kind of sensor says.
 template <typename Sample>
 std::vector<std::pair<stack::Measurement, Sample>> RecordSamples(const Rig& rig, const base::Transform& X_WB,
                                                                  base::Rate rate, double samples) {
   std::vector<std::pair<stack::Measurement, Sample>> all;
-  Record(Stripped(rig), nullptr, Rest(X_WB), base::Seconds(samples * rate.Period()), [&all](stack::Measurement&& m) {
+  Rig bench = WithoutCamerasAndImu(rig);
+  bench.sensors.gimbals.clear();
+  Record(bench, nullptr, Rest(X_WB), base::Seconds(samples * rate.Period()), [&all](stack::Measurement&& m) {
     if (const auto* sample = std::get_if<Sample>(&m.data)) all.emplace_back(m, *sample);
   });
   return all;
