@@ -8,7 +8,7 @@
 #include "scenarios/end_of_stack.h"
 #include "scenarios/numeric_class.h"
 #include "scenarios/world_json.h"
-#include "sim/run_digest.h"
+#include "sim/interval_digests.h"
 #include "sim/run_folder.h"
 
 namespace alula::scenarios {
@@ -16,22 +16,12 @@ namespace {
 
 constexpr const char* kVehicle = "vehicle0";
 
-/// Hashes what each step did.
-class DigestKeeper : public sim::Observer {
- public:
-  std::optional<std::string> Observe(const sim::StepView& step) override {
-    digest.Add(step);
-    return std::nullopt;
-  }
-  sim::RunDigest digest;
-};
-
 /// All that a run is made of besides the simulation itself.
 struct Cast {
   stack::Calibration calibration;  // true
   std::vector<std::unique_ptr<Criterion>> criteria;
   std::vector<std::unique_ptr<Spectator>> spectators;
-  DigestKeeper digest;
+  std::unique_ptr<sim::IntervalDigests> digests;
   EndOfStack end_of_stack;
   std::unique_ptr<sim::RunFolder> folder;
   std::unique_ptr<sim::Recorder> recorder;
@@ -90,7 +80,9 @@ void Assemble(const Scenario& scenario, const RunOptions& options, sim::Simulati
     parts.observers.push_back(cast.criteria.back().get());
   }
   parts.observers.push_back(&cast.end_of_stack);
-  parts.observers.push_back(&cast.digest);
+  cast.digests = std::make_unique<sim::IntervalDigests>(scenario.config.recorder.digest_interval, cast.folder.get(),
+                                                        options.interval_digest);
+  parts.observers.push_back(cast.digests.get());
   if (cast.folder) {
     cast.recorder = std::make_unique<sim::Recorder>(scenario.config.recorder, *cast.folder);
     parts.observers.push_back(cast.recorder.get());
@@ -126,13 +118,11 @@ void Judge(const Cast& cast, Verdict& verdict) {
   verdict.checks.push_back(AtMost("faults", fault ? 1.0 : 0.0, 0.0, "1"));
   if (!fault) verdict.outcome = passed ? Outcome::kPass : Outcome::kFail;
 
-  const sim::RunDigest& digest = cast.digest.digest;
+  const sim::RunDigest& digest = cast.digests->digest();
   verdict.digest = digest.Hex();
-  verdict.digests = {{"truth", digest.truth.Hex()},
-                     {"estimates", digest.estimates.Hex()},
-                     {"commands", digest.commands.Hex()},
-                     {"events", digest.events.Hex()},
-                     {"measurements", digest.measurements.Hex()}};
+  for (std::size_t i = 0; i < sim::kStreams; ++i) {
+    verdict.digests.emplace(sim::kStreamNames[i], digest.streams[i].Hex());
+  }
 }
 
 std::string TimingJson(const sim::Simulation* simulation, double wall_s) {
@@ -211,6 +201,7 @@ Verdict RunScenario(const Scenario& scenario, const RunOptions& options) {
   }
   const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
   for (const auto& spectator : cast.spectators) spectator->Finish();
+  cast.digests->Finish();
   Judge(cast, verdict);
   if (cast.folder) WriteFolder(scenario, *world, verdict, TimingJson(simulation.get(), wall.count()), files, cast);
   return verdict;

@@ -12,6 +12,7 @@
 #include "scenarios/factories.h"
 #include "scenarios/scenario.h"
 #include "scenarios/verdict.h"
+#include "sim/interval_digests.h"
 
 namespace alula::scenarios {
 
@@ -38,7 +39,8 @@ struct RunOptions {
   std::optional<std::filesystem::path> out;  // the run's folder; none: nothing is written
   StackMaker stack;                          // flies in place of the scenario's own stack
   std::vector<SpectatorMaker> spectators;
-  std::function<void(base::Time)> progress;  // called every 100 ms of simulated time
+  std::function<void(base::Time)> progress;                    // called every 100 ms of simulated time
+  std::function<void(const sim::DigestRow&)> interval_digest;  // called with every row of digests.csv
   const std::atomic<bool>* interrupt = nullptr;
 };
 

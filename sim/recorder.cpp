@@ -61,6 +61,8 @@ void Describe(base::Description& d, RecorderConfig& c) {
   d.Field("truth_rate", c.truth_rate, {.unit = "Hz", .meaning = "lines of truth.tum"});
   d.Field("estimate_rate", c.estimate_rate, {.unit = "Hz", .meaning = "lines of estimate.tum, at most"});
   d.Field("telemetry_rate", c.telemetry_rate, {.unit = "Hz", .meaning = "lines of telemetry.csv"});
+  d.Field("digest_interval", c.digest_interval,
+          {.unit = "s", .meaning = "simulated time from one line of digests.csv to the next", .min = 1e-3});
 }
 
 bool Recorder::Clock::Passes(base::Time now) {

@@ -86,6 +86,12 @@ void StreamFile::Write(std::string_view text) {
   }
 }
 
+void StreamFile::Flush() {
+  if (std::fflush(file_) != 0) {
+    throw base::FaultError("disk", "cannot write " + name_ + ": " + std::strerror(errno));
+  }
+}
+
 void StreamFile::Close() {
   std::FILE* const file = file_;
   file_ = nullptr;

@@ -46,6 +46,8 @@ class StreamFile {
   StreamFile& operator=(const StreamFile&) = delete;
 
   void Write(std::string_view text);
+  /// Hands what was written to the system: it outlives the process from here on, however that ends.
+  void Flush();
   void Close();
 
  private:
