@@ -4,7 +4,9 @@
 //   error@5                returns ALULA_FAILED and says why        throw@5     throws std::out_of_range
 //   oddly@5                throws an int                            nan@5       sends an estimate that is no number
 //   kind@5                 sends a command that does not exist      round@5     changes the mode of rounding
-//   segfault@5  abort@5  exit@5 (std::exit(0))  hang@5              memory@5    takes 4 GiB, then gives up
+//   segfault@5  abort@5  exit@5 (std::exit(0): a zero, but no verdict)
+//   hang@5                 sleeps for ever; Alula takes SIGTERM as a wish, so only SIGKILL ends it
+//   memory@5               takes 4 GiB, then gives up
 //   setpoint_shift@5:0.01  from then on every position set-point lies 0.01 m further in x
 //
 // A parameter text that is none of these is bad input.

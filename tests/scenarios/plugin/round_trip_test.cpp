@@ -95,7 +95,7 @@ class Filler {
     } else if constexpr (std::is_floating_point_v<T>) {
       value = random_.Gaussian();
     } else {
-      std::apply([this](auto&... fields) { (Fill(fields), ...); }, Fields(value));
+      std::apply([this](auto&... fields) { (this->Fill(fields), ...); }, Fields(value));
     }
   }
   void Fill(std::string& text) { text = "text " + std::to_string(random_.Bits()); }
@@ -129,7 +129,7 @@ class Filler {
   /// Keeps the alternative.
   template <typename... Ts>
   void Fill(std::variant<Ts...>& value) {
-    std::visit([this](auto& alternative) { Fill(alternative); }, value);
+    std::visit([this](auto& alternative) { this->Fill(alternative); }, value);
   }
 
  private:
