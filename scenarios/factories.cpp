@@ -57,6 +57,10 @@ StackMaker MakerOf(const StackConfig& config) {
                             return pilot::MakeVisualInertialStack(calibration, mission, c, seed, workers);
                           };
                         },
+                        [](const PluginConfig& c) -> StackMaker {
+                          return [c](const Calibration& calibration, const Mission& mission, std::uint64_t seed,
+                                     int workers) { return MakePluginStack(c, calibration, mission, seed, workers); };
+                        },
                     },
                     config);
 }

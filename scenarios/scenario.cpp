@@ -57,7 +57,7 @@ void Describe(base::Description& d, ScenarioConfig& c) {
   d.Field("knowledge", c.knowledge, {.meaning = "how wrong the stack's calibration and mission are"});
   d.Field("mission", c.mission, {.meaning = "what is asked of the stack"});
   d.OneOf("stack", c.stack,
-          {.meaning = "the software under test", .choices = {"none", "position_relay", "visual_inertial"}});
+          {.meaning = "the software under test", .choices = {"none", "position_relay", "visual_inertial", "plugin"}});
   d.Field("simulation", c.simulation, {.meaning = "the loop"});
   d.Field("recorder", c.recorder, {.meaning = "what is written down"});
   d.ListOf("criteria", c.criteria,

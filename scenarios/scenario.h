@@ -19,6 +19,7 @@
 #include "scenarios/criteria/mean_speed.h"
 #include "scenarios/criteria/target_reached.h"
 #include "scenarios/criteria/time_limit.h"
+#include "scenarios/plugin/plugin_stack.h"
 #include "sim/knowledge.h"
 #include "sim/recorder.h"
 #include "sim/simulation.h"
@@ -42,7 +43,8 @@ inline void Describe(base::Description&, None&) {}
 using WorldConfig = std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig, worlds::SceneConfig>;
 using VehicleConfig = std::variant<vehicles::QuadrotorConfig, vehicles::PrescribedConfig>;
 using AutopilotConfig = std::variant<None, vehicles::MulticopterAutopilotConfig>;
-using StackConfig = std::variant<None, stack::pilot::PositionRelayConfig, stack::pilot::VisualInertialConfig>;
+using StackConfig =
+    std::variant<None, stack::pilot::PositionRelayConfig, stack::pilot::VisualInertialConfig, PluginConfig>;
 using CriterionConfig = std::variant<TimeLimitConfig, ContactsConfig, ClearanceConfig, GatesConfig, TargetReachedConfig,
                                      MeanSpeedConfig, AteConfig, LandedConfig, HoverErrorConfig, BoundsConfig>;
 
