@@ -7,6 +7,7 @@
 #   cluster.sh kill-node DIR NODE    a node that dies: slurmd, its slurmstepds and every process of its jobs, kill -9
 #   cluster.sh kill-daemon DIR NODE  slurmd alone, kill -9: the node looks dead, its jobs live on
 #   cluster.sh start-node DIR NODE   the node comes back
+#   cluster.sh hurry DIR             tasks that Slurm requeued start now, not after the two minutes that it makes them wait
 #   cluster.sh kill-controller DIR / start-controller DIR
 #   cluster.sh stop DIR              ends everything and deletes DIR
 set -euo pipefail
@@ -99,18 +100,20 @@ start_munge() {
   chmod 0400 "$dir/munge/key"
   # --force: the folders above DIR (/tmp) may be written by others.
   env "$(mark munged)" munged --force --key-file="$dir/munge/key" --socket="$dir/munge/socket" \
-    --pid-file="$dir/munge/pid" --log-file="$dir/munge/log" --seed-file="$dir/munge/seed" 2>>"$dir/munge.err" ||
+    --pid-file="$dir/munge/pid" --log-file="$dir/munge/log" --seed-file="$dir/munge/seed" >>"$dir/munge.err" 2>&1 ||
     die "munged: $(tail -1 "$dir/munge.err")"
 }
 
 start_controller() {
-  env SLURM_CONF="$conf" "$(mark controller)" slurmctld -f "$conf" || die "slurmctld: $(tail -1 "$dir/slurmctld.log")"
+  env SLURM_CONF="$conf" "$(mark controller)" slurmctld -f "$conf" >/dev/null 2>&1 ||
+     die "slurmctld: $(tail -1 "$dir/slurmctld.log")"
   wait_for 30 scontrol ping || die "slurmctld does not answer: see $dir/slurmctld.log"
 }
 
 start_node() {
   mkdir -p "$dir/spool/$1"
-  env SLURM_CONF="$conf" "$(mark "$1")" slurmd -f "$conf" -N "$1" || die "slurmd $1: $(tail -1 "$dir/slurmd.$1.log")"
+  env SLURM_CONF="$conf" "$(mark "$1")" slurmd -f "$conf" -N "$1" >/dev/null 2>&1 ||
+     die "slurmd $1: $(tail -1 "$dir/slurmd.$1.log")"
   wait_for 30 node_is_up "$1" || die "node $1 does not come up: see $dir/slurmd.$1.log"
 }
 
@@ -153,6 +156,13 @@ kill_node() {
 
 kill_daemon() { kill -9 "$(cat "$dir/slurmd.$1.pid")"; }
 
+hurry() {
+  local task reason
+  squeue -h -r -t PENDING -o '%F_%K %r' | while read -r task reason; do
+    [[ $reason != BeginTime ]] || scontrol update "JobId=$task" StartTime=now
+  done
+}
+
 stop() {
   local node
   for node in n1 n2; do kill_node "$node"; done
@@ -170,6 +180,7 @@ case $verb in
   kill-node) kill_node "$3" ;;
   kill-daemon) kill_daemon "$3" ;;
   start-node) start_node "$3" ;;
+  hurry) hurry ;;
   kill-controller) kill_all marked controller ;;
   start-controller) start_controller ;;
   *) die "no verb $verb" ;;
