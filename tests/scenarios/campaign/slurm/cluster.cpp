@@ -1,5 +1,7 @@
 #include "tests/scenarios/campaign/slurm/cluster.h"
 
+#include <unistd.h>
+
 #include <cstdlib>
 #include <iostream>
 #include <stdexcept>
@@ -25,7 +27,7 @@ std::string WhyNoCluster() {
 
 Cluster::Cluster() : folder_("slurm") {
   try {
-    Do({"start"});
+    Do({"start", std::to_string(::getpid())});
   } catch (...) {
     Script({"stop", folder_.path().string()});
     throw;

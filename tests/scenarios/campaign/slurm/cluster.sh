@@ -3,7 +3,8 @@
 # All of it lies in DIR, which must be on a file system with Unix sockets and be named by a short absolute path.
 #
 #   cluster.sh check                 says in one line what is missing and ends with 77; 0 when all is there
-#   cluster.sh start DIR             ends when both nodes are idle; SLURM_CONF=DIR/slurm.conf then leads to it
+#   cluster.sh start DIR [PID]       ends when both nodes are idle; SLURM_CONF=DIR/slurm.conf then leads to it. The
+#                                    cluster stops by itself once process PID is gone, however that ends
 #   cluster.sh kill-node DIR NODE    a node that dies: slurmd, its slurmstepds and every process of its jobs, kill -9
 #   cluster.sh kill-daemon DIR NODE  slurmd alone, kill -9: the node looks dead, its jobs live on
 #   cluster.sh start-node DIR NODE   the node comes back
@@ -126,6 +127,13 @@ start() {
   start_controller
   start_node n1
   start_node n2
+  if [[ -n $1 ]]; then stop_after "$1" </dev/null >/dev/null 2>&1 & fi
+}
+
+# Stops the cluster when process $1 is gone; ends by itself when somebody else stopped it.
+stop_after() {
+  while [[ -d $dir && -d /proc/$1 ]]; do sleep 1; done
+  stop
 }
 
 # Process ids under a mark (slurmd, slurmstepd); zombies have no environment and do not count.
@@ -175,7 +183,7 @@ stop() {
 export SLURM_CONF=$conf
 case $verb in
   check) check ;;
-  start) start ;;
+  start) start "${3:-}" ;;
   stop) stop ;;
   kill-node) kill_node "$3" ;;
   kill-daemon) kill_daemon "$3" ;;
