@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,10 +47,25 @@ class YamlDocument {
   std::shared_ptr<const Node> root_;
 };
 
+/// One distribution of a document, and what was drawn from it.
+struct Drawn {
+  std::string kind;     // "uniform", "normal" or "choice"
+  std::string value;    // with its unit, as it would stand in the file; of a choice of maps or lists the entry's number
+  double number = 0.0;  // in SI; of a choice the entry's number
+};
+
+/// Where the random part of distributions comes from, and what came of it.
+struct Draws {
+  /// The share u in (0, 1) of its distribution at which the value of a path lies: the value is the u-quantile (of a
+  /// choice, entry ⌊u n⌋). Where there is no function, or it gives none, the stream "parameter/<path>" draws.
+  std::function<std::optional<double>(const std::string& path)> quantile;
+  std::map<std::string, Drawn> drawn;  // by path
+};
+
 /// Fills the described struct from the document. Distributions ({uniform: […]}, {normal: […]}, {choice: […]}) are
 /// drawn from streams named "parameter/<path>" of `seed`. Unknown keys, wrong dimensions, values outside their range
 /// and failed checks throw InputError with file:line:col, the nearest known key suggested.
-void ReadDescribed(const YamlDocument& document, Description description, std::uint64_t seed);
+void ReadDescribed(const YamlDocument& document, Description description, std::uint64_t seed, Draws* draws = nullptr);
 
 /// The struct as YAML: every field, units written out, numbers with as many digits as read back to the same bits.
 std::string DumpDescribed(const Description& description);
@@ -58,11 +75,11 @@ std::string DumpDescribed(const Description& description);
 std::string SchemaOf(const Description& description, std::string_view title);
 
 template <Describable Config>
-Config ReadConfig(const YamlDocument& document, std::uint64_t seed) {
+Config ReadConfig(const YamlDocument& document, std::uint64_t seed, Draws* draws = nullptr) {
   Config config;
   Description description;
   Describe(description, config);
-  ReadDescribed(document, std::move(description), seed);
+  ReadDescribed(document, std::move(description), seed, draws);
   return config;
 }
 

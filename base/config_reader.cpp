@@ -25,7 +25,7 @@ using Draw = ValueReader::Draw;
 /// messages, in `--set`, and in the name of the random stream that draws it.
 class Reader {
  public:
-  explicit Reader(std::uint64_t seed) : values_(seed) {}
+  Reader(std::uint64_t seed, Draws* draws) : values_(seed, draws) {}
 
   void ReadStruct(const Node& node, const std::string& path, const Description& description,
                   bool has_type_key = false) {
@@ -83,9 +83,11 @@ class Reader {
       const Draw draw = values_.DrawChoice(node, path);
       const bool overwrites =
           std::holds_alternative<Bound::Scalar>(field.value) || std::holds_alternative<Bound::Enum>(field.value);
+      Draws* const draws = values_.NoteIn(nullptr);       // these are looked at, not drawn
       for (const Node& other : node.map[0].value.list) {  // an error must not wait for the seed that draws it
         if (overwrites) ReadField(field, other, path);
       }
+      values_.NoteIn(draws);
       return ReadField(field, *draw.node, draw.path);
     }
     std::visit([&](const auto& value) { Read(value, field.info, node, path); }, field.value);
@@ -217,8 +219,8 @@ class Reader {
 
 }  // namespace
 
-void ReadDescribed(const YamlDocument& document, Description description, std::uint64_t seed) {
-  Reader(seed).ReadStruct(document.root(), "", description);
+void ReadDescribed(const YamlDocument& document, Description description, std::uint64_t seed, Draws* draws) {
+  Reader(seed, draws).ReadStruct(document.root(), "", description);
 }
 
 }  // namespace alula::base

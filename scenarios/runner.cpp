@@ -1,6 +1,10 @@
 #include "scenarios/runner.h"
 
+#include <fmt/format.h>
+
 #include <chrono>
+#include <fstream>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -15,6 +19,12 @@ namespace alula::scenarios {
 namespace {
 
 constexpr const char* kVehicle = "vehicle0";
+
+/// Puts a run's files in place; what not every run leaves is named, so that none of an earlier run stays.
+void Commit(sim::RunFolder& folder) {
+  folder.Commit(
+      {"map.bt", "video.mp4", "dataset", "crash.txt", "world.json", "timing.json", "truth.tum", "estimate.tum"});
+}
 
 /// All that a run is made of besides the simulation itself.
 struct Cast {
@@ -100,7 +110,9 @@ std::string Fly(sim::Simulation& simulation, const RunOptions& options) {
   constexpr std::int64_t kProgressPeriod = 100'000'000;
   for (;;) {
     if (options.interrupt != nullptr && options.interrupt->load(std::memory_order_relaxed)) throw Interrupted();
-    if (const std::optional<std::string> reason = simulation.Step()) return *reason;
+    const std::optional<std::string> reason = simulation.Step();
+    if (options.pulse != nullptr) options.pulse->store(simulation.time().ns, std::memory_order_relaxed);
+    if (reason) return *reason;
     if (options.progress && simulation.time().ns % kProgressPeriod == 0) options.progress(simulation.time());
   }
 }
@@ -149,12 +161,12 @@ void WriteFolder(const Scenario& scenario, const worlds::World& world, const Ver
   cast.recorder->AddEvent(end, "run", "end",
                           verdict.message.empty() ? verdict.reason : verdict.reason + ": " + verdict.message);
   cast.recorder->Finish();
+  for (const stack::StackFile& file : files) cast.folder->Write(file.name, file.bytes);  // first: ours stand
   cast.folder->Write("scenario.yaml", base::DumpConfig(scenario.config));
   cast.folder->Write("world.json", WorldToJson(world));
   cast.folder->Write("timing.json", timing);
-  for (const stack::StackFile& file : files) cast.folder->Write(file.name, file.bytes);
   cast.folder->Write("verdict.json", ToJson(verdict));
-  cast.folder->Commit({"map.bt", "video.mp4", "dataset"});
+  Commit(*cast.folder);
 }
 
 }  // namespace
@@ -177,10 +189,16 @@ Verdict RunScenario(const Scenario& scenario, const RunOptions& options) {
     verdict.reason = std::move(reason);
     verdict.message = std::move(message);
   };
-  if (options.out) cast.folder = std::make_unique<sim::RunFolder>(*options.out);
+  if (options.out) {
+    cast.folder = std::make_unique<sim::RunFolder>(*options.out);
+    cast.folder->Write("scenario.yaml", base::DumpConfig(scenario.config));  // first: a run may die at any time
+  }
   Assemble(scenario, options, parts, cast);
   try {
     parts.stack = MakeStack(scenario, options, cast.calibration, *world);
+    if (const auto* plugin = std::get_if<PluginConfig>(&scenario.config.stack)) {
+      verdict.versions["stack_library"] = HashOfLibrary(plugin->library);
+    }
     simulation = std::make_unique<sim::Simulation>(std::move(parts));
     verdict.outcome = Outcome::kFail;
     verdict.reason = Fly(*simulation, options);
@@ -190,6 +208,8 @@ Verdict RunScenario(const Scenario& scenario, const RunOptions& options) {
     throw;
   } catch (const base::FaultError& e) {
     fault(e.reason(), e.what());
+  } catch (const std::bad_alloc&) {
+    fault("memory", "there is no more memory");
   } catch (const std::exception& e) {
     fault("exception", e.what());
   }
@@ -204,6 +224,28 @@ Verdict RunScenario(const Scenario& scenario, const RunOptions& options) {
   cast.digests->Finish();
   Judge(cast, verdict);
   if (cast.folder) WriteFolder(scenario, *world, verdict, TimingJson(simulation.get(), wall.count()), files, cast);
+  return verdict;
+}
+
+Verdict ConcludeDeadRun(const Scenario& scenario, const std::optional<std::filesystem::path>& out, pid_t pid,
+                        const Death& death) {
+  Verdict verdict;
+  verdict.outcome = Outcome::kFault;
+  verdict.reason = death.reason;
+  verdict.message = fmt::format("{}, {:.3f} s into the flight", death.message, death.simulated.Seconds());
+  verdict.checks = {AtMost("faults", 1.0, 0.0, "1")};
+  verdict.metrics = {{"duration_s", death.simulated.Seconds()}};
+  verdict.versions = Versions("");
+  verdict.numeric_class = NumericClass(verdict.versions);
+  verdict.seed = scenario.seed;
+  verdict.scenario = scenario.name;
+  if (!out) return verdict;
+  sim::RunFolder folder(*out, pid);
+  std::ofstream(folder.PathOf("events.jsonl"), std::ios::app)
+      << sim::EventLine(death.simulated, "run", "end", verdict.reason + ": " + verdict.message);
+  folder.Write("scenario.yaml", base::DumpConfig(scenario.config));
+  folder.Write("verdict.json", ToJson(verdict));
+  Commit(folder);
   return verdict;
 }
 

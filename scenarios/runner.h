@@ -1,6 +1,9 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <atomic>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <memory>
@@ -11,6 +14,7 @@
 #include "base/time.h"
 #include "scenarios/factories.h"
 #include "scenarios/scenario.h"
+#include "scenarios/supervisor.h"
 #include "scenarios/verdict.h"
 #include "sim/interval_digests.h"
 
@@ -42,6 +46,7 @@ struct RunOptions {
   std::function<void(base::Time)> progress;                    // called every 100 ms of simulated time
   std::function<void(const sim::DigestRow&)> interval_digest;  // called with every row of digests.csv
   const std::atomic<bool>* interrupt = nullptr;
+  std::atomic<std::int64_t>* pulse = nullptr;  // told the simulated time in ns after each step
 };
 
 /// The run was stopped from outside; nothing was written.
@@ -54,6 +59,11 @@ class Interrupted : public std::exception {
 /// exception, a NaN) is a verdict too; its folder holds what led to it. Throws base::InputError for bad input, and
 /// Interrupted.
 Verdict RunScenario(const Scenario& scenario, const RunOptions& options);
+
+/// The verdict of a run whose process `pid` died. Its folder, where it had one, is completed: with what the process had
+/// written there.
+Verdict ConcludeDeadRun(const Scenario& scenario, const std::optional<std::filesystem::path>& out, pid_t pid,
+                        const Death& death);
 
 /// All parts of a scenario's simulation, without observers: for benchmarks and tests that step it themselves.
 sim::SimulationParts BuildParts(const Scenario& scenario, const RunOptions& options);

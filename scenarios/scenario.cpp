@@ -1,6 +1,7 @@
 #include "scenarios/scenario.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/error.h"
 #include "base/nearest.h"
@@ -48,6 +49,7 @@ void Describe(base::Description& d, MissionConfig& c) {
 
 void Describe(base::Description& d, ScenarioConfig& c) {
   d.Field("meaning", c.meaning, {.meaning = "one sentence for the list"});
+  d.Field("tags", c.tags, {.meaning = "groups for `alula run --all --tag`"});
   d.Field("seed", c.seed, {.meaning = "of all random numbers, unless the command line names one"});
   DescribeWorld(d, c.world);
   DescribeVehicle(d, c.vehicle);
@@ -138,13 +140,21 @@ WorldConfig LoadWorld(const fs::path& file, const std::vector<base::Override>& o
   return LoadPart<WorldPart>(file, overrides, seed).world;
 }
 
-Scenario LoadScenario(const fs::path& file, const std::vector<base::Override>& overrides,
-                      std::optional<std::uint64_t> seed) {
-  const base::YamlDocument document = base::YamlDocument::Load(file, Catalogs(), overrides);
+Scenario ResolveScenario(const base::YamlDocument& document, std::string name, std::optional<std::uint64_t> seed,
+                         base::Draws* draws) {
   if (!seed) seed = base::ReadConfig<ScenarioConfig>(document, 1).seed;
-  Scenario scenario{file.stem().string(), *seed, base::ReadConfig<ScenarioConfig>(document, *seed)};
+  Scenario scenario{std::move(name), *seed, base::ReadConfig<ScenarioConfig>(document, *seed, draws)};
   scenario.config.seed = *seed;
   return scenario;
+}
+
+base::YamlDocument LoadScenarioDocument(const fs::path& file, const std::vector<base::Override>& overrides) {
+  return base::YamlDocument::Load(file, Catalogs(), overrides);
+}
+
+Scenario LoadScenario(const fs::path& file, const std::vector<base::Override>& overrides,
+                      std::optional<std::uint64_t> seed) {
+  return ResolveScenario(LoadScenarioDocument(file, overrides), file.stem().string(), seed);
 }
 
 }  // namespace alula::scenarios

@@ -56,8 +56,9 @@ void Describe(base::Description& d, MissionConfig& c);
 
 /// One scenario: everything that a run depends on but its seed.
 struct ScenarioConfig {
-  std::string meaning;     // one sentence for `alula list`
-  std::uint64_t seed = 1;  // unless the command line names one
+  std::string meaning;            // one sentence for `alula list`
+  std::vector<std::string> tags;  // groups for `alula run --all --tag`
+  std::uint64_t seed = 1;         // unless the command line names one
   WorldConfig world;
   VehicleConfig vehicle;
   AutopilotConfig autopilot;
@@ -84,6 +85,14 @@ std::vector<std::filesystem::path> Catalogs();
 
 /// A name of the catalog or the path of a file. Throws base::InputError with the nearest known name.
 std::filesystem::path FindScenario(std::string_view name_or_path);
+
+/// The scenario of one seed (the document's own where none is given). Draws are kept in `draws` where it is not null.
+Scenario ResolveScenario(const base::YamlDocument& document, std::string name, std::optional<std::uint64_t> seed,
+                         base::Draws* draws = nullptr);
+
+/// A scenario's file, read and put together with what it extends.
+base::YamlDocument LoadScenarioDocument(const std::filesystem::path& file,
+                                        const std::vector<base::Override>& overrides);
 
 /// Reads a scenario, draws its distributions from the seed (the file's own where none is given).
 Scenario LoadScenario(const std::filesystem::path& file, const std::vector<base::Override>& overrides,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "scenarios/criteria/criterion.h"
@@ -27,9 +28,13 @@ struct Verdict {
 };
 
 const char* Word(Outcome outcome);
+/// The outcome of a word; kFault for any other.
+Outcome OutcomeOf(std::string_view word);
 /// 0 pass, 1 fail, 3 fault.
 int ExitCode(Outcome outcome);
 std::string ToJson(const Verdict& verdict);
+/// The verdict that ToJson wrote. Throws base::FaultError("verdict") for any other text.
+Verdict VerdictFromJson(const std::string& text);
 /// A table for a person.
 std::string ToTable(const Verdict& verdict);
 

@@ -47,7 +47,6 @@ IntervalDigests::IntervalDigests(base::Duration interval, const RunFolder* folde
   if (folder == nullptr) return;
   file_.emplace(folder->PathOf(kDigestsFile));
   file_->Write(Header() + '\n');
-  file_->Flush();
 }
 
 std::optional<std::string> IntervalDigests::Observe(const StepView& step) {
@@ -62,10 +61,7 @@ void IntervalDigests::Note() {
   noted_ = now_;
   DigestRow row{now_, {}};
   for (std::size_t i = 0; i < kStreams; ++i) row.streams[i] = digest_.streams[i].value();
-  if (file_) {
-    file_->Write(Line(row));
-    file_->Flush();
-  }
+  if (file_) file_->Write(Line(row));
   if (tell_) tell_(row);
 }
 
@@ -76,14 +72,17 @@ void IntervalDigests::Finish() {
 
 std::vector<DigestRow> ReadDigests(const std::filesystem::path& file) {
   std::ifstream stream = base::OpenText(file);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
+  return ParseDigests(std::string{std::istreambuf_iterator<char>(stream), {}}, file.string());
+}
+
+std::vector<DigestRow> ParseDigests(std::string text, const std::string& name) {
   text.resize(text.rfind('\n') + 1);  // npos + 1 is 0
   if (!text.starts_with(Header() + '\n')) {
-    throw base::InputError({file.string(), 1}, "", "is no table of digests; the first line must be " + Header());
+    throw base::InputError({name, 1}, "", "is no table of digests; the first line must be " + Header());
   }
   std::istringstream lines(std::move(text));
   std::vector<DigestRow> rows;
-  base::ForEachRow(lines, file.string(), [&rows](const base::TextRow& row) {
+  base::ForEachRow(lines, name, [&rows](const base::TextRow& row) {
     if (row.where().line == 1) return;  // the header
     DigestRow digests{row.TimeInSeconds(0, "time_s"), {}};
     for (std::size_t i = 0; i < kStreams; ++i) digests.streams[i] = Hash(row, i + 1, kStreamNames[i]);

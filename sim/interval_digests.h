@@ -54,5 +54,7 @@ class IntervalDigests : public Observer {
 /// The rows of a digests.csv. What stands after the last line feed was cut off by a kill and is left out. Throws
 /// base::InputError.
 std::vector<DigestRow> ReadDigests(const std::filesystem::path& file);
+/// The same of its text; `name` is for messages.
+std::vector<DigestRow> ParseDigests(std::string text, const std::string& name);
 
 }  // namespace alula::sim

@@ -57,6 +57,11 @@ const stack::PositionSetpoint* LastSetpoint(const StepView& step) {
 
 }  // namespace
 
+std::string EventLine(base::Time time, std::string_view source, std::string_view kind, std::string_view text) {
+  return fmt::format("{{\"t_s\": {:.6f}, \"source\": {}, \"kind\": {}, \"text\": {}}}\n", time.Seconds(),
+                     JsonText(source), JsonText(kind), JsonText(text));
+}
+
 void Describe(base::Description& d, RecorderConfig& c) {
   d.Field("truth_rate", c.truth_rate, {.unit = "Hz", .meaning = "lines of truth.tum"});
   d.Field("estimate_rate", c.estimate_rate, {.unit = "Hz", .meaning = "lines of estimate.tum, at most"});
@@ -81,8 +86,7 @@ Recorder::Recorder(const RecorderConfig& config, const RunFolder& folder)
       telemetry_clock_{config.telemetry_rate} {}
 
 void Recorder::AddEvent(base::Time time, std::string_view source, std::string_view kind, std::string_view text) {
-  events_.Write(fmt::format("{{\"t_s\": {:.6f}, \"source\": {}, \"kind\": {}, \"text\": {}}}\n", time.Seconds(),
-                            JsonText(source), JsonText(kind), JsonText(text)));
+  events_.Write(EventLine(time, source, kind, text));
 }
 
 void Recorder::RecordEvents(const StepView& step) {

@@ -20,6 +20,9 @@ struct RecorderConfig {
 };
 void Describe(base::Description& d, RecorderConfig& c);
 
+/// One line of events.jsonl, its end of line included; `source` as "run" or "stack".
+std::string EventLine(base::Time time, std::string_view source, std::string_view kind, std::string_view text);
+
 /// Streams a run to disk with bounded memory:
 ///   truth.tum      time x y z qx qy qz qw of X_WB, world frame
 ///   estimate.tum   the same of X_MB = X_MO X_OB as published at each time
@@ -30,7 +33,6 @@ class Recorder : public Observer {
   Recorder(const RecorderConfig& config, const RunFolder& folder);
 
   std::optional<std::string> Observe(const StepView& step) override;
-  /// A line of events.jsonl; `source` as "run" or "stack".
   void AddEvent(base::Time time, std::string_view source, std::string_view kind, std::string_view text);
   /// Closes the files.
   void Finish();

@@ -16,26 +16,31 @@ namespace {
 constexpr std::string_view kPrefix = ".partial-";
 
 /// Leftovers of runs that were killed: hidden folders whose process is gone.
-void RemoveStale(const fs::path& folder) {
+void RemoveStale(const fs::path& folder, pid_t spared) {
   std::error_code ignored;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(kPrefix)) continue;
     const pid_t pid = static_cast<pid_t>(std::atoi(name.c_str() + kPrefix.size()));
+    if (pid == spared) continue;
     if (pid <= 0 || (::kill(pid, 0) != 0 && errno == ESRCH)) fs::remove_all(entry.path(), ignored);
   }
 }
 
 }  // namespace
 
-RunFolder::RunFolder(const fs::path& folder) : folder_(folder.lexically_normal()) {
+fs::path RunFolder::PartialOf(const fs::path& folder, pid_t writer) {
+  return folder.lexically_normal() / (std::string(kPrefix) + std::to_string(writer));
+}
+
+RunFolder::RunFolder(const fs::path& folder, pid_t writer) : folder_(folder.lexically_normal()) {
   for (fs::path p = folder_; !p.empty() && !fs::exists(p); p = p.parent_path()) made_.push_back(p);
   std::error_code error;
   fs::create_directories(folder_, error);
   if (!error) {
-    RemoveStale(folder_);
-    partial_ = folder_ / (std::string(kPrefix) + std::to_string(::getpid()));
-    fs::remove_all(partial_, error);
+    RemoveStale(folder_, writer);
+    partial_ = PartialOf(folder_, writer != 0 ? writer : ::getpid());
+    if (writer == 0) fs::remove_all(partial_, error);
     fs::create_directory(partial_, error);
   }
   if (error) {
@@ -73,6 +78,7 @@ void RunFolder::Commit(std::initializer_list<std::string_view> optional) {
 }
 
 StreamFile::StreamFile(const fs::path& file) : name_(file.filename().string()), file_(std::fopen(file.c_str(), "wb")) {
+  if (file_ != nullptr) std::setvbuf(file_, nullptr, _IOLBF, BUFSIZ);
   if (file_ == nullptr) throw base::FaultError("disk", "cannot open " + name_ + ": " + std::strerror(errno));
 }
 
@@ -82,12 +88,6 @@ StreamFile::~StreamFile() {
 
 void StreamFile::Write(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), file_) != text.size()) {
-    throw base::FaultError("disk", "cannot write " + name_ + ": " + std::strerror(errno));
-  }
-}
-
-void StreamFile::Flush() {
-  if (std::fflush(file_) != 0) {
     throw base::FaultError("disk", "cannot write " + name_ + ": " + std::strerror(errno));
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <initializer_list>
@@ -14,12 +16,15 @@ namespace alula::sim {
 /// folders that were made for it.
 class RunFolder {
  public:
-  /// Throws base::InputError where the folder cannot be made or written to.
-  explicit RunFolder(const std::filesystem::path& folder);
+  /// Throws base::InputError where the folder cannot be made or written to. `writer`: a process whose hidden folder is
+  /// taken over, with all that it had written before it died; 0: this process, with nothing in it.
+  explicit RunFolder(const std::filesystem::path& folder, pid_t writer = 0);
   ~RunFolder();
   RunFolder(const RunFolder&) = delete;
   RunFolder& operator=(const RunFolder&) = delete;
 
+  /// The hidden folder of a process.
+  static std::filesystem::path PartialOf(const std::filesystem::path& folder, pid_t writer);
   /// Where a file called `name` is to be written.
   std::filesystem::path PathOf(std::string_view name) const { return partial_ / name; }
   /// Writes a whole text file.
@@ -37,7 +42,8 @@ class RunFolder {
   bool committed_ = false;
 };
 
-/// A text file that is written as a stream. Throws base::FaultError("disk") when the disk is full.
+/// A text file that is written as a stream, line by line, so that what a process wrote before it died is there. Throws
+/// base::FaultError("disk") when the disk is full.
 class StreamFile {
  public:
   explicit StreamFile(const std::filesystem::path& file);
@@ -46,8 +52,6 @@ class StreamFile {
   StreamFile& operator=(const StreamFile&) = delete;
 
   void Write(std::string_view text);
-  /// Hands what was written to the system: it outlives the process from here on, however that ends.
-  void Flush();
   void Close();
 
  private:

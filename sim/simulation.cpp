@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <new>
 #include <utility>
 
 #include "base/error.h"
@@ -70,6 +71,8 @@ void Simulation::StepStack() {
   if (!parts_.stack) return;
   try {
     output_ = parts_.stack->Step(time_, measurements_);
+  } catch (const std::bad_alloc&) {
+    throw base::FaultError("memory", "the stack asked for more memory than there is");
   } catch (const std::exception& e) {
     throw base::FaultError("stack_exception", e.what());
   } catch (...) {

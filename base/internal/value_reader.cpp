@@ -26,11 +26,31 @@ auto Located(const Node& node, const std::string& path, const Function& function
 }
 
 /// `uniform` over integers takes both ends with the same chance as all between.
-double RoundInteger(double value, double low, double high, RandomStream& stream) {
-  if (std::isfinite(low) && std::isfinite(high) && value >= low && value <= high && high - low < 0x1p52) {
-    return low + static_cast<double>(stream.Index(static_cast<std::uint64_t>(high - low) + 1));
+double DrawInteger(double low, double high, RandomStream& stream) {
+  if (high - low < 0x1p52) return low + static_cast<double>(stream.Index(static_cast<std::uint64_t>(high - low) + 1));
+  return std::round(stream.Uniform(low, high));
+}
+
+/// P(x ≤ z) of the standard normal distribution.
+double NormalShare(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+
+/// The z below which the share u of a standard normal distribution lies: by bisection, which stops where doubles end.
+double NormalQuantile(double u) {
+  double low = -40.0, high = 40.0;
+  for (double middle = 0.0; low < middle || middle < high; middle = 0.5 * (low + high)) {
+    const bool below = NormalShare(middle) < u;
+    if (middle == (below ? low : high)) break;
+    (below ? low : high) = middle;
   }
-  return std::round(value);
+  return 0.5 * (low + high);
+}
+
+/// The u-quantile of a normal distribution that is cut off at both ends of a range.
+double NormalQuantile(double u, double mean, double sigma, double min, double max) {
+  if (sigma == 0.0) return mean;
+  const double low = NormalShare((min - mean) / sigma);
+  const double high = NormalShare((max - mean) / sigma);
+  return std::clamp(mean + sigma * NormalQuantile(low + u * (high - low)), min, max);
 }
 
 std::string ExampleVec3(const FieldInfo& info) {
@@ -51,8 +71,12 @@ ValueReader::Draw ValueReader::DrawChoice(const Node& node, const std::string& p
   if (!choices.IsList() || choices.list.empty()) {
     Fail(choices, path, "`choice` wants a list of at least one value");
   }
-  RandomStream stream(seed_, "parameter/" + path);
-  const std::size_t drawn = static_cast<std::size_t>(stream.Index(choices.list.size()));
+  const std::optional<double> u = Quantile(path);
+  const std::size_t drawn =
+      u ? std::min(choices.list.size() - 1, static_cast<std::size_t>(*u * static_cast<double>(choices.list.size())))
+        : static_cast<std::size_t>(RandomStream(seed_, "parameter/" + path).Index(choices.list.size()));
+  const Node& chosen = choices.list[drawn];
+  Note(path, {"choice", chosen.IsScalar() ? chosen.text : std::to_string(drawn), static_cast<double>(drawn)});
   return DrawChoice(choices.list[drawn], path + ".choice." + std::to_string(drawn));
 }
 
@@ -62,11 +86,19 @@ const std::string& ScalarText(const Node& node, const std::string& path, const c
   return node.text;
 }
 
+std::optional<double> ValueReader::Quantile(const std::string& path) const {
+  return draws_ != nullptr && draws_->quantile ? draws_->quantile(path) : std::nullopt;
+}
+
+void ValueReader::Note(const std::string& path, Drawn drawn) const {
+  if (draws_ != nullptr) draws_->drawn.insert_or_assign(path, std::move(drawn));
+}
+
 /// Draws where `node` is a distribution, reads otherwise; either way within the field's range. `parse` gives a
-/// number of the field's kind as a double, `round` brings a drawn one back to a value the field can hold.
-template <typename Parse, typename Round>
+/// number of the field's kind as a double; a drawn one of a `whole` field is a whole number.
+template <typename Parse>
 double ValueReader::NumberOrDraw(const Node& node, const std::string& path, const FieldInfo& info,
-                                 std::string_view unit, const Parse& parse, const Round& round) const {
+                                 std::string_view unit, const Parse& parse, bool whole) const {
   const auto read = [&](const Node& n) {
     const std::string& text = ScalarText(n, path, n.IsMap() ? kNumberOrDistribution : "a number");
     return Located(n, path, [&] { return parse(text); });
@@ -78,10 +110,9 @@ double ValueReader::NumberOrDraw(const Node& node, const std::string& path, cons
   if (!node.IsDistribution()) return checked(node, read(node));
   const std::string& kind = node.map[0].key;
   const Node& arguments = node.map[0].value;
-  RandomStream stream(seed_, "parameter/" + path);
   if (kind == "choice") {
     const Draw draw = DrawChoice(node, path);
-    return NumberOrDraw(*draw.node, draw.path, info, unit, parse, round);
+    return NumberOrDraw(*draw.node, draw.path, info, unit, parse, whole);
   }
   if (!arguments.IsList() || arguments.list.size() != 2) {
     Fail(arguments, path,
@@ -89,28 +120,54 @@ double ValueReader::NumberOrDraw(const Node& node, const std::string& path, cons
   }
   const double first = read(arguments.list[0]);
   const double second = read(arguments.list[1]);
+  checked(arguments.list[0], first);
+  double value = 0.0;
   if (kind == "uniform") {
     if (first > second) Fail(arguments, path, "`uniform` wants the lowest value first");
-    checked(arguments.list[0], first);
     checked(arguments.list[1], second);
-    return std::clamp(round(stream.Uniform(first, second), first, second, stream), first, second);
+    value = DrawUniform(path, first, second, whole);
+  } else {
+    if (second < 0) Fail(arguments.list[1], path, "a standard deviation cannot be negative");
+    const std::optional<double> drawn = DrawNormal(path, first, second, info, whole);
+    if (!drawn) Fail(arguments, path, "almost never falls into its range; lower the standard deviation");
+    value = *drawn;
   }
-  checked(arguments.list[0], first);
-  if (second < 0) Fail(arguments.list[1], path, "a standard deviation cannot be negative");
+  Note(path, {kind, quantity::Format(value, unit), value});
+  return value;
+}
+
+double ValueReader::DrawUniform(const std::string& path, double low, double high, bool whole) const {
+  RandomStream stream(seed_, "parameter/" + path);
+  const std::optional<double> u = Quantile(path);
+  double value = 0.0;
+  if (whole) {
+    value = u ? low + std::floor(*u * (high - low + 1.0)) : DrawInteger(low, high, stream);
+  } else {
+    value = u ? low + *u * (high - low) : stream.Uniform(low, high);
+  }
+  return std::clamp(value, low, high);
+}
+
+std::optional<double> ValueReader::DrawNormal(const std::string& path, double mean, double sigma, const FieldInfo& info,
+                                              bool whole) const {
+  const auto rounded = [whole](double value) { return whole ? std::round(value) : value; };
+  if (const std::optional<double> u = Quantile(path)) {
+    return rounded(NormalQuantile(*u, mean, sigma, info.min, info.max));
+  }
+  RandomStream stream(seed_, "parameter/" + path);
   constexpr int kMostDraws = 1000;  // the mean lies in the range, so half of the draws do on one side at least
   for (int i = 0; i < kMostDraws; ++i) {
-    const double value = round(first + second * stream.Gaussian(), info.min, info.max, stream);
+    const double value = rounded(mean + sigma * stream.Gaussian());
     if (value >= info.min && value <= info.max) return value;
   }
-  Fail(arguments, path, "almost never falls into its range; lower the standard deviation");
+  return std::nullopt;
 }
 
 double ValueReader::ReadDouble(const Node& node, const std::string& path, const FieldInfo& info,
                                bool may_be_infinite) const {
   return NumberOrDraw(
       node, path, info, info.unit,
-      [&](const std::string& text) { return quantity::ParseNumber(text, info.unit, may_be_infinite); },
-      [](double value, double, double, RandomStream&) { return value; });
+      [&](const std::string& text) { return quantity::ParseNumber(text, info.unit, may_be_infinite); }, false);
 }
 
 template <typename Integer>
@@ -133,12 +190,8 @@ Integer ValueReader::ReadInteger(const Node& node, const std::string& path, cons
   }
   limits.min = std::max(limits.min, -0x1p53);  // draws go through a double
   limits.max = std::min(limits.max, 0x1p53);
-  const bool uniform = node.map[0].key == "uniform";
   return static_cast<Integer>(NumberOrDraw(
-      node, path, limits, info.unit, [&](const std::string& text) { return static_cast<double>(parse(text)); },
-      [uniform](double value, double low, double high, RandomStream& stream) {
-        return uniform ? RoundInteger(value, low, high, stream) : std::round(value);
-      }));
+      node, path, limits, info.unit, [&](const std::string& text) { return static_cast<double>(parse(text)); }, true));
 }
 
 void ValueReader::Read(double* value, const FieldInfo& info, const Node& node, const std::string& path) const {
@@ -170,8 +223,7 @@ void ValueReader::Read(std::string* value, const FieldInfo& info, const Node& no
 }
 void ValueReader::Read(Duration* value, const FieldInfo& info, const Node& node, const std::string& path) const {
   const double seconds = NumberOrDraw(
-      node, path, info, "s", [](const std::string& text) { return quantity::ParseDuration(text).Seconds(); },
-      [](double drawn, double, double, RandomStream&) { return drawn; });
+      node, path, info, "s", [](const std::string& text) { return quantity::ParseDuration(text).Seconds(); }, false);
   *value = node.IsScalar() ? quantity::ParseDuration(node.text) : Seconds(seconds);
 }
 void ValueReader::Read(Rate* value, const FieldInfo& info, const Node& node, const std::string& path) const {

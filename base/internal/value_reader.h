@@ -1,8 +1,11 @@
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/config.h"
 #include "base/describe.h"
 #include "base/internal/yaml_tree.h"
 #include "base/random.h"
@@ -24,10 +27,13 @@ std::string Offer(const std::string& word, const std::vector<std::string>& words
 /// Whether the node is {choice: […]}.
 bool IsChoice(const Node& node);
 
-/// Reads single values, drawing those that are distributions from the stream "parameter/<path>" of the seed.
+/// Reads single values, drawing those that are distributions (config.h: Draws).
 class ValueReader {
  public:
-  explicit ValueReader(std::uint64_t seed) : seed_(seed) {}
+  ValueReader(std::uint64_t seed, Draws* draws) : seed_(seed), draws_(draws) {}
+
+  /// Notes what is drawn there from now on (nowhere: null); gives where it was noted before.
+  Draws* NoteIn(Draws* draws) { return std::exchange(draws_, draws); }
 
   struct Draw {
     const Node* node;
@@ -47,16 +53,23 @@ class ValueReader {
   void Read(Vec3* value, const FieldInfo& info, const Node& node, const std::string& path) const;
 
  private:
-  template <typename Parse, typename Round>
+  template <typename Parse>
   double NumberOrDraw(const Node& node, const std::string& path, const FieldInfo& info, std::string_view unit,
-                      const Parse& parse, const Round& round) const;
+                      const Parse& parse, bool whole) const;
+  double DrawUniform(const std::string& path, double low, double high, bool whole) const;
+  std::optional<double> DrawNormal(const std::string& path, double mean, double sigma, const FieldInfo& info,
+                                   bool whole) const;
   double ReadDouble(const Node& node, const std::string& path, const FieldInfo& info, bool may_be_infinite) const;
   template <typename Integer>
   Integer ReadInteger(const Node& node, const std::string& path, const FieldInfo& info) const;
   void PatchVec3(Vec3* value, const FieldInfo& info, const Node& node, const std::string& path) const;
   void DrawVec3(Vec3* value, const FieldInfo& info, const Node& node, const std::string& path) const;
 
+  std::optional<double> Quantile(const std::string& path) const;
+  void Note(const std::string& path, Drawn drawn) const;
+
   std::uint64_t seed_;
+  Draws* draws_;
 };
 
 /// The index that a map of `--set list.2=…` names, checked against the list's size.

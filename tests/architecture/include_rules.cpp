@@ -60,6 +60,9 @@ const std::vector<Library>& Libraries() {
       {"fmt", {"fmt/", "spdlog/"}, false},
       {"json", {"nlohmann/"}, false},
       {"cli", {"CLI/"}, true},
+      {"sqlite", {"sqlite3.h"}, true},
+      {"zlib", {"zlib.h"}, true},
+      {"boost", {"boost/"}, true},
   };
   return libraries;
 }

@@ -190,6 +190,38 @@ TEST(Config, DistributionsDrawFromTheStreamOfTheirPath) {
   for (int i = 1; i <= 8; ++i) EXPECT_NEAR(counts[static_cast<std::size_t>(i)], 250, 4 * std::sqrt(250 * 7.0 / 8));
 }
 
+TEST(Config, DrawsAreNotedAndQuantilesTakeTheirPlace) {
+  const YamlDocument document = YamlDocument::Parse(
+      "mass: {uniform: [600 g, 0.9 kg]}\nratio: {normal: [0.5, 0.1]}\ncount: {uniform: [1, 8]}\n"
+      "mode: {choice: [auto, manual]}\nstart: {uniform: [[0, 0, 1], [1, 2, 1]] m}\n",
+      "test.yaml");
+  Draws draws;
+  const Vehicle plain = ReadConfig<Vehicle>(document, 7);
+  const Vehicle noted = ReadConfig<Vehicle>(document, 7, &draws);
+  EXPECT_EQ(DumpConfig(plain), DumpConfig(noted));
+  ASSERT_EQ(draws.drawn.size(), 7U);  // the vector's three components one by one
+  EXPECT_EQ(draws.drawn.at("mass").number, noted.mass);
+  EXPECT_EQ(draws.drawn.at("mass").kind, "uniform");
+  EXPECT_EQ(draws.drawn.at("count").value, std::to_string(noted.count));
+  EXPECT_EQ(draws.drawn.at("start.1").number, noted.start.y());
+  std::vector<Override> given;  // what was noted, written into the file, gives the same
+  for (const auto& [path, drawn] : draws.drawn) given.push_back({path, drawn.value});
+  const YamlDocument fixed = YamlDocument::Parse("start: [0, 0, 1] m\n", "fixed.yaml", {}, given);
+  EXPECT_EQ(DumpConfig(ReadConfig<Vehicle>(fixed, 99)), DumpConfig(plain));
+
+  const std::map<std::string, double> quantiles = {{"mass", 0.25}, {"ratio", 0.975}, {"count", 0.999}, {"mode", 0.6}};
+  draws.quantile = [&](const std::string& path) -> std::optional<double> {
+    const auto found = quantiles.find(path);
+    return found == quantiles.end() ? std::nullopt : std::optional(found->second);
+  };
+  const Vehicle placed = ReadConfig<Vehicle>(document, 7, &draws);
+  EXPECT_DOUBLE_EQ(placed.mass, 0.675);
+  EXPECT_NEAR(placed.ratio, 0.5 + 0.1 * 1.959963984540054, 1e-6);  // cut off at 0 and 1, 5 sigma away
+  EXPECT_EQ(placed.count, 8);
+  EXPECT_EQ(draws.drawn.at("mode").number, 1.0);
+  EXPECT_EQ(placed.start, plain.start);
+}
+
 TEST(Config, ChoicesAndVectorsDraw) {
   bool gusty = false, calm = false, low = false;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {

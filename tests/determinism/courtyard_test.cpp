@@ -12,7 +12,7 @@ namespace {
 namespace fs = std::filesystem;
 
 nlohmann::json Fly(const fs::path& out, const fs::path& directory, std::vector<std::string> more) {
-  std::vector<std::string> arguments = {"run", "courtyard_gates", "--json", "--out", out};
+  std::vector<std::string> arguments = {"run", "courtyard_gates", "--json", "-", "--out", out};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const CommandResult run = Alula(arguments, {.directory = directory.string(), .environment = {}});
   EXPECT_EQ(run.exit_code, 0) << run.out << run.err;

@@ -23,7 +23,7 @@ nlohmann::json Digests(const std::vector<std::string>& scenario, const Variant& 
   const TemporaryFolder folder("determinism");
   std::vector<std::string> arguments = scenario;
   arguments.insert(arguments.end(), variant.arguments.begin(), variant.arguments.end());
-  arguments.insert(arguments.end(), {"--json", "--out", folder.path() / "r"});
+  arguments.insert(arguments.end(), {"--json", "-", "--out", folder.path() / "r"});
   const CommandResult run = Alula(
       arguments, {.directory = variant.elsewhere ? folder.path().string() : "", .environment = variant.environment});
   if (run.exit_code > 1) {

@@ -46,10 +46,10 @@ TEST(Command, FailedCriterionExitsWithOne) {
 
 TEST(Command, JsonIsAllThatIsPrinted) {
   const TemporaryFolder folder("json");
-  const CommandResult run = Alula({"run", "hover", "--json", "--out", folder.path() / "r"});
+  const CommandResult run = Alula({"run", "hover", "--json", "-", "--out", folder.path() / "r"});
   EXPECT_EQ(nlohmann::json::parse(run.out)["outcome"], "pass");
   EXPECT_EQ(run.err, "");
-  const CommandResult list = Alula({"list", "--json"});
+  const CommandResult list = Alula({"list", "--json", "-"});
   EXPECT_GE(nlohmann::json::parse(list.out).size(), 3U);
 }
 
@@ -152,10 +152,10 @@ TEST(Command, BadMeshesAndTexturesAreOneLineAndExitWithTwo) {
 TEST(Command, ASceneOfOnesOwnIsFlownAndItsRecordRunsAgain) {
   const TemporaryFolder folder("own_scene");
   const CommandResult run =
-      Alula({"run", "docs/examples/own_scene/own_scene.yaml", "--json", "--out", folder.path() / "r"});
+      Alula({"run", "docs/examples/own_scene/own_scene.yaml", "--json", "-", "--out", folder.path() / "r"});
   ASSERT_EQ(run.exit_code, 0) << run.out << run.err;
   const CommandResult again =
-      Alula({"run", folder.path() / "r" / "scenario.yaml", "--json", "--out", folder.path() / "s"},
+      Alula({"run", folder.path() / "r" / "scenario.yaml", "--json", "-", "--out", folder.path() / "s"},
             {.directory = folder.path()});
   ASSERT_EQ(again.exit_code, 0) << again.out << again.err;
   EXPECT_EQ(nlohmann::json::parse(again.out)["digest"], nlohmann::json::parse(run.out)["digest"]);
@@ -183,7 +183,7 @@ TEST(Command, InterruptLeavesNothingBehind) {
 }
 
 TEST(Command, CheckSensorsMeasuresAndFindsOut) {
-  const CommandResult good = Alula({"check", "sensors", "hover", "--json"});
+  const CommandResult good = Alula({"check", "sensors", "hover", "--json", "-"});
   EXPECT_EQ(good.exit_code, 0) << good.out;
   const nlohmann::json json = nlohmann::json::parse(good.out);
   EXPECT_EQ(json.at("passed"), true);

@@ -1,0 +1,127 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scenarios/campaign/case.h"
+#include "scenarios/campaign/database.h"
+#include "scenarios/campaign/executor.h"
+#include "scenarios/campaign/search/failure_search.h"
+#include "scenarios/campaign/statistics/requirement.h"
+#include "scenarios/campaign/statistics/sequential_test.h"
+
+namespace alula::scenarios::campaign {
+
+/// What stands at the end of `alula sweep`, of the runs that its plan names.
+struct SweepResult {
+  std::string scenario;
+  std::filesystem::path database;
+  std::vector<Row> rows;    // by index in the plan; of an unfinished sweep those that there are
+  std::size_t planned = 0;  // runs
+  std::size_t flown = 0;    // by this call; the others were there
+  struct Decided {
+    statistics::Requirement requirement;
+    statistics::Decision decision = statistics::Decision::kUndecided;
+    std::size_t runs = 0;  // after which it was decided, in the plan's order
+    std::int64_t successes = 0;
+    statistics::Interval interval;  // valid whenever one stops
+  };
+  std::vector<Decided> requirements;
+  bool interrupted = false;
+  std::string note;  // what a person should know about the sample
+  int jobs = 1;
+  double wall_s = 0.0;  // of this call
+
+  bool StoppedEarly() const { return !requirements.empty() && rows.size() < planned && !interrupted; }
+};
+
+/// What a sweep tells while it goes on.
+struct SweepNews {
+  std::size_t done = 0, planned = 0;
+  std::size_t passes = 0, failures = 0, faults = 0;
+  double seconds = 0.0;      // since this call began
+  std::size_t flown = 0;     // by it
+  const Row* row = nullptr;  // the run that ended; null where only time has passed
+};
+
+struct SweepRequest {
+  SweepPlan plan;
+  std::filesystem::path out;
+  bool fresh = false;
+  std::vector<statistics::Requirement> requirements;
+  ExecutorOptions executor;  // its folders and name follow from the plan and `out`
+  std::function<void(const SweepNews&)> news;
+};
+
+/// What `--search failures` came to.
+struct FailureSweepResult {
+  SweepResult sweep;
+  search::FailureEstimate estimate;
+  struct Range {
+    std::string path;
+    std::string low, middle, high;  // values one standard deviation about the middle
+  };
+  struct Region {
+    double share = 0.0;  // of the probability
+    std::vector<Range> parameters;
+  };
+  std::vector<Region> regions;
+};
+
+/// One shard of a sweep that several processes share.
+struct Shard {
+  int number = 0;
+  int of = 1;
+  std::function<bool()> still_ours;  // asked before each row is written
+
+  bool Has(std::size_t index) const { return index % static_cast<std::size_t>(of) == static_cast<std::size_t>(number); }
+};
+
+/// A sweep's folder, locked: two sweeps in one folder would fly everything twice. Throws base::InputError.
+class SweepFolder {
+ public:
+  SweepFolder(const std::filesystem::path& folder, bool fresh);
+  ~SweepFolder();
+  SweepFolder(const SweepFolder&) = delete;
+  SweepFolder& operator=(const SweepFolder&) = delete;
+  const std::filesystem::path& path() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_;
+  int lock_ = -1;
+};
+
+/// Throws base::InputError where the database holds runs of another scenario, plan or build: they would not be one
+/// sample.
+void CheckSameSweep(Database& database, const CaseMaker& cases);
+
+/// Flies what the database does not yet hold, until all is flown or all requirements are decided. Killed at any moment,
+/// the same call goes on where it was: a run is in the database, or its finished folder is taken over, or it is flown.
+SweepResult RunSweep(const SweepRequest& request);
+
+/// Looks for rare failures among the distributions of the scenario (search/failure_search.h); the plan's seeds are the
+/// runs allowed. Called again, it takes the same way through the runs that are there.
+FailureSweepResult SearchFailures(const SweepRequest& request, search::FailureSearchConfig config);
+
+/// How far a run was from failing: the least room that a check had, as a share of its limit (of limits of 0 in the
+/// check's unit); 0 or less for a failed check, −∞ for a fault.
+double MarginOf(const Verdict& verdict);
+
+/// Flies the cases of one shard into `file`, under `request.out`, which others share: no lock is taken here.
+SweepResult RunShard(const SweepRequest& request, const Shard& shard, const std::filesystem::path& file);
+
+/// The result as far as the database holds it.
+SweepResult ResultOf(const SweepRequest& request, const CaseMaker& cases, Database& database);
+
+/// Requirements are looked at in the plan's order, not in that of ending: failures may end sooner than passes.
+std::vector<SweepResult::Decided> Decide(const std::vector<statistics::Requirement>& requirements,
+                                         const std::vector<const Row*>& in_order);
+
+/// 0, 1, 3 of a sweep without requirements: all passed, one failed, one was a fault; with them 0, 1 or 4.
+int ExitCode(const SweepResult& result);
+
+}  // namespace alula::scenarios::campaign

@@ -1,0 +1,65 @@
+#include <unistd.h>
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "base/error.h"
+#include "scenarios/check/sensor_checks.h"
+#include "scenarios/commands/verbs.h"
+#include "scenarios/exit_codes.h"
+#include "scenarios/factories.h"
+#include "scenarios/runner.h"
+#include "scenarios/scenario.h"
+#include "scenarios/write_file.h"
+
+namespace alula::scenarios::commands {
+
+int List(const CommandLine& line) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const CatalogEntry& entry : ListCatalogs()) {
+    const std::string meaning =
+        entry.kind == "scenario" ? LoadScenario(entry.file, {}, std::nullopt).config.meaning : std::string();
+    json.push_back({{"kind", entry.kind}, {"name", entry.name}, {"meaning", meaning}});
+    if (line.json != "-") std::printf("%-10s%-20s %s\n", entry.kind.c_str(), entry.name.c_str(), meaning.c_str());
+  }
+  if (!line.json.empty()) WriteFile("--json", line.json, json.dump(2) + "\n");
+  return 0;
+}
+
+int CheckFiles(const CommandLine& line) {
+  for (const std::string& name : line.names) {
+    const CatalogEntry entry = FindAny(name);
+    const std::uint64_t seed = line.seed.value_or(1);
+    if (entry.kind == "vehicle") {
+      MakeVehicle(LoadVehicle(entry.file, line.overrides, seed), "vehicle0");
+    } else if (entry.kind == "world") {
+      MakeWorld(LoadWorld(entry.file, line.overrides, seed), seed);
+    } else {
+      TryToBuild(LoadScenario(entry.file, line.overrides, line.seed));
+    }
+    if (!line.quiet) std::printf("%s: good\n", entry.file.c_str());
+  }
+  return 0;
+}
+
+int CheckSensors(const CommandLine& line) {
+  const Scenario scenario = LoadScenario(FindScenario(line.names.front()), line.overrides, line.seed);
+  const bool terminal = ::isatty(STDERR_FILENO) != 0;
+  const auto told = [terminal](const std::string& what) {
+    if (terminal) std::fprintf(stderr, "\r%-70s", what.c_str());
+  };
+  check::Rig rig;
+  rig.sensors = scenario.config.sensors;
+  rig.body = MakeVehicle(scenario.config.vehicle, check::kVehicle)->body();
+  rig.step = scenario.config.simulation.step;
+  rig.seed = scenario.seed;
+  rig.render = line.render;
+  const check::Report report = check::CheckSensors(rig, scenario.config.sensors, told);
+  if (terminal) std::fprintf(stderr, "\r%-70s\r", "");
+  if (line.json != "-") std::fputs(check::ToTable(report).c_str(), stdout);
+  if (!line.json.empty()) WriteFile("--json", line.json, check::ToJson(report, scenario.name));
+  return report.passed() ? 0 : kExitFailed;
+}
+
+}  // namespace alula::scenarios::commands

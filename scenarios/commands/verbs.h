@@ -1,0 +1,17 @@
+#pragma once
+
+#include "scenarios/commands/command_line.h"
+
+namespace alula::scenarios::commands {
+
+// Each does one verb and gives the exit code.
+int Run(const CommandLine& line);
+int Export(const CommandLine& line);
+int List(const CommandLine& line);
+int CheckFiles(const CommandLine& line);
+int CheckSensors(const CommandLine& line);
+int Bench(const CommandLine& line);
+int Sweep(const CommandLine& line);
+int Replay(const CommandLine& line);
+
+}  // namespace alula::scenarios::commands
