@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "scenarios/campaign/failure_sweep.h"
 #include "scenarios/campaign/sweep.h"
 #include "scenarios/junit.h"
 

@@ -4,25 +4,25 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <fstream>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
+#include "scenarios/campaign/internal/shard_plan.h"
+#include "scenarios/campaign/same_sweep.h"
 #include "scenarios/campaign/slurm/batch_script.h"
 #include "scenarios/campaign/slurm/queue.h"
 #include "scenarios/campaign/slurm/resubmission.h"
-#include "scenarios/campaign/slurm/shard_claim.h"
+#include "scenarios/campaign/sweep_folder.h"
 #include "scenarios/write_file.h"
 
 namespace alula::scenarios::campaign {
 namespace fs = std::filesystem;
 namespace {
 
-using Json = nlohmann::ordered_json;
+using internal::ShardFile;
+using internal::ShardsOfPlan;
 
 constexpr std::size_t kRunsPerShard = 10;
 constexpr double kClaimPatience = 120.0;            // s that a task waits for the one before it to let go of the shard
@@ -30,43 +30,6 @@ constexpr std::chrono::milliseconds kGlance(2000);  // between looks at the shar
 constexpr std::chrono::seconds kBetweenQuestions(10);  // to the queue, which others share
 constexpr std::chrono::seconds kFresh(10);             // a file's age below which its time says nothing
 using Clock = std::chrono::steady_clock;
-
-fs::path ShardFile(const fs::path& folder, int shard) { return folder / "shards" / (std::to_string(shard) + ".db"); }
-
-/// What a worker must know, as plan.json.
-std::string WorkersPlan(const SweepRequest& request, int shards) {
-  Json json;
-  json["plan"] = Json::parse(ToJson(request.plan));
-  json["shards"] = shards;
-  const ExecutorOptions& e = request.executor;
-  json["executor"] = {{"jobs", e.jobs},
-                      {"workers", e.workers},
-                      {"render", e.render},
-                      {"keep", static_cast<int>(e.keep)},
-                      {"hang_limit_s", e.limits.stall.Seconds()}};
-  if (e.limits.wall) json["executor"]["wall_limit_s"] = e.limits.wall->Seconds();
-  if (e.limits.memory) json["executor"]["memory_limit"] = *e.limits.memory;
-  return json.dump(2) + "\n";
-}
-
-Json ReadPlan(const fs::path& folder) {
-  std::ostringstream text;
-  text << std::ifstream(folder / "plan.json").rdbuf();
-  const Json json = Json::parse(text.str(), nullptr, false);
-  return json.is_object() ? json : Json();
-}
-
-ExecutorOptions ExecutorOf(const Json& json) {
-  ExecutorOptions e;
-  e.jobs = json.at("jobs");
-  e.workers = json.at("workers");
-  e.render = json.at("render");
-  e.keep = static_cast<Keep>(json.at("keep").get<int>());
-  e.limits.stall = base::Seconds(json.at("hang_limit_s"));
-  if (json.contains("wall_limit_s")) e.limits.wall = base::Seconds(json.at("wall_limit_s"));
-  if (json.contains("memory_limit")) e.limits.memory = json.at("memory_limit").get<std::uint64_t>();
-  return e;
-}
 
 slurm::SlurmJob JobOf(const SlurmRequest& request, const fs::path& folder, std::vector<int> shards) {
   const ExecutorOptions& e = request.sweep.executor;
@@ -86,8 +49,7 @@ slurm::SlurmJob JobOf(const SlurmRequest& request, const fs::path& folder, std::
 
 /// The number of shards is fixed when the sweep begins: which runs a shard holds depends on it.
 int ShardsOf(const SlurmRequest& request, const fs::path& folder) {
-  const Json there = ReadPlan(folder);
-  if (there.contains("shards")) return there.at("shards");
+  if (const int there = ShardsOfPlan(folder); there > 0) return there;
   const std::size_t runs = request.sweep.plan.seeds.size();
   constexpr std::size_t kMost = 1000;  // Slurm's own limit of an array's size is 1001
   const std::size_t usual = std::min(kMost, (runs + kRunsPerShard - 1) / kRunsPerShard);
@@ -119,7 +81,7 @@ class Cluster {
     fs::create_directories(path_ / "shards", error);
     if (!error) fs::create_directories(slurm::LogFolder(path_), error);
     if (error) throw base::InputError("--out: cannot write to " + path_.string() + " (" + error.message() + ")");
-    WriteFile("--out", path_ / "plan.json", WorkersPlan(request.sweep, shards));
+    WriteFile("--out", path_ / "plan.json", internal::WorkersPlan(request.sweep, shards));
   }
 
   SlurmResult Run() {
@@ -283,25 +245,9 @@ std::string DryRun(const SlurmRequest& request) {
   return slurm::BatchScript(JobOf(request, folder, all));
 }
 
-SlurmResult RunSlurmSweep(const SlurmRequest& request) { return Cluster(request).Run(); }
-
-SweepResult RunWorker(const fs::path& folder, int shard) {
-  const Json json = ReadPlan(folder);
-  if (!json.contains("shards")) throw base::InputError(folder.string() + ": holds no plan.json of a sweep");
-  SweepRequest request;
-  request.plan = PlanFromJson(json.at("plan").dump());
-  request.out = folder;
-  request.executor = ExecutorOf(json.at("executor"));
-  const fs::path file = ShardFile(folder, shard);
-  const fs::path claimed = file.string() + ".claim";
-  const std::optional<slurm::ShardClaim> claim =
-      slurm::ShardClaim::Wait(claimed, slurm::ThisProcess(), kClaimPatience, nullptr);
-  if (!claim) {
-    const std::optional<slurm::ClaimHolder> holder = slurm::ReadHolder(claimed);
-    throw base::FaultError(
-        "claim", "shard " + std::to_string(shard) + " is held by " + (holder ? holder->Text() : "another process"));
-  }
-  return RunShard(request, {shard, json.at("shards"), [&claim] { return claim->StillHeld(); }}, file);
+SlurmResult RunSlurmSweep(const SlurmRequest& request) {
+  slurm::AskQueue(slurm::JobName(fs::absolute(request.sweep.out)));  // without Slurm nothing is begun
+  return Cluster(request).Run();
 }
 
 }  // namespace alula::scenarios::campaign

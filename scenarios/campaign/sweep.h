@@ -10,7 +10,6 @@
 #include "scenarios/campaign/case.h"
 #include "scenarios/campaign/database.h"
 #include "scenarios/campaign/executor.h"
-#include "scenarios/campaign/search/failure_search.h"
 #include "scenarios/campaign/statistics/requirement.h"
 #include "scenarios/campaign/statistics/sequential_test.h"
 
@@ -57,21 +56,6 @@ struct SweepRequest {
   std::function<void(const SweepNews&)> news;
 };
 
-/// What `--search failures` came to.
-struct FailureSweepResult {
-  SweepResult sweep;
-  search::FailureEstimate estimate;
-  struct Range {
-    std::string path;
-    std::string low, middle, high;  // values one standard deviation about the middle
-  };
-  struct Region {
-    double share = 0.0;  // of the probability
-    std::vector<Range> parameters;
-  };
-  std::vector<Region> regions;
-};
-
 /// One shard of a sweep that several processes share.
 struct Shard {
   int number = 0;
@@ -81,35 +65,9 @@ struct Shard {
   bool Has(std::size_t index) const { return index % static_cast<std::size_t>(of) == static_cast<std::size_t>(number); }
 };
 
-/// A sweep's folder, locked: two sweeps in one folder would fly everything twice. Throws base::InputError.
-class SweepFolder {
- public:
-  SweepFolder(const std::filesystem::path& folder, bool fresh);
-  ~SweepFolder();
-  SweepFolder(const SweepFolder&) = delete;
-  SweepFolder& operator=(const SweepFolder&) = delete;
-  const std::filesystem::path& path() const { return folder_; }
-
- private:
-  std::filesystem::path folder_;
-  int lock_ = -1;
-};
-
-/// Throws base::InputError where the database holds runs of another scenario, plan or build: they would not be one
-/// sample.
-void CheckSameSweep(Database& database, const CaseMaker& cases);
-
 /// Flies what the database does not yet hold, until all is flown or all requirements are decided. Killed at any moment,
 /// the same call goes on where it was: a run is in the database, or its finished folder is taken over, or it is flown.
 SweepResult RunSweep(const SweepRequest& request);
-
-/// Looks for rare failures among the distributions of the scenario (search/failure_search.h); the plan's seeds are the
-/// runs allowed. Called again, it takes the same way through the runs that are there.
-FailureSweepResult SearchFailures(const SweepRequest& request, search::FailureSearchConfig config);
-
-/// How far a run was from failing: the least room that a check had, as a share of its limit (of limits of 0 in the
-/// check's unit); 0 or less for a failed check, −∞ for a fault.
-double MarginOf(const Verdict& verdict);
 
 /// Flies the cases of one shard into `file`, under `request.out`, which others share: no lock is taken here.
 SweepResult RunShard(const SweepRequest& request, const Shard& shard, const std::filesystem::path& file);
