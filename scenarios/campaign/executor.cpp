@@ -11,6 +11,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -193,9 +194,13 @@ Row Executor::RowOf(const Case& flown, int status) const {
   } else if (WIFEXITED(status) && WEXITSTATUS(status) == kExitBadInput) {
     throw base::InputError("seed " + std::to_string(flown.seed) + ": " + errors);
   } else {
+    constexpr std::string_view kDisk = "fault (disk): ";
+    const bool disk = errors.starts_with(kDisk);
     row.verdict.outcome = Outcome::kFault;
-    row.verdict.reason = errors.starts_with("fault (disk)") ? "disk" : "lost";
-    row.verdict.message = errors.empty() ? "its process ended without a verdict" : errors;
+    row.verdict.reason = disk ? "disk" : "lost";
+    row.verdict.message = disk             ? errors.substr(kDisk.size())
+                          : errors.empty() ? "its process ended without a verdict"
+                                           : errors;
     row.verdict.seed = flown.seed;
     row.verdict.scenario = options_.name;
   }

@@ -148,9 +148,7 @@ int SlurmSweep(const SweepRequest& sweep, const CommandLine& line) {
   return result.sweep.interrupted ? kExitInterrupted : kExitPassed;
 }
 
-}  // namespace
-
-int Sweep(const CommandLine& line) {
+int SweepOrWorse(const CommandLine& line) {
   if (!line.sweep.worker.empty()) return Worker(line);
   if (!line.sweep.compare.empty()) return Compare(line);
   SweepRequest request;
@@ -175,6 +173,17 @@ int Sweep(const CommandLine& line) {
                  result.planned);
   }
   return campaign::ExitCode(result);
+}
+
+}  // namespace
+
+int Sweep(const CommandLine& line) {
+  try {
+    return SweepOrWorse(line);
+  } catch (const base::FaultError& e) {
+    if (e.reason() != "disk") throw;
+    throw base::FaultError(e.reason(), std::string(e.what()) + "; what was flown is safe, the same command goes on");
+  }
 }
 
 }  // namespace alula::scenarios::commands
