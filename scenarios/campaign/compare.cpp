@@ -17,6 +17,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr double kConfidence = 0.95;
+
+/// JSON has no infinity: an interval of too few pairs has no ends.
+Json Number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
 std::map<std::uint64_t, Row> BySeed(const std::filesystem::path& file) {
   std::map<std::uint64_t, Row> rows;
   for (Row& row : Database(file, Database::Mode::kRead).Rows()) {
@@ -28,14 +33,14 @@ std::map<std::uint64_t, Row> BySeed(const std::filesystem::path& file) {
 
 /// A metric's values in both runs of each pair that has both.
 struct Values {
-  std::vector<double> a, b, differences;
+  std::vector<double> a, b;
 };
 
 Comparison::Metric TestMetric(const std::string& name, Values values) {
-  Comparison::Metric metric{.name = name, .test = statistics::WilcoxonTest(values.differences)};
+  Comparison::Metric metric{.name = name, .test = statistics::WilcoxonSignedRank(values.a, values.b, kConfidence)};
   for (std::vector<double>* side : {&values.a, &values.b}) std::sort(side->begin(), side->end());
-  metric.median_a = statistics::Quantile(values.a, 0.5);
-  metric.median_b = statistics::Quantile(values.b, 0.5);
+  metric.median_a = statistics::QuantileOfSorted(values.a, 0.5);
+  metric.median_b = statistics::QuantileOfSorted(values.b, 0.5);
   return metric;
 }
 
@@ -76,14 +81,13 @@ Comparison CompareSweeps(const std::filesystem::path& a, const std::filesystem::
       Values& values = metrics[name];
       values.a.push_back(value);
       values.b.push_back(other->second);
-      values.differences.push_back(other->second - value);
     }
   }
   if (comparison.pairs == 0) throw base::InputError("--compare: the two sweeps have no seed in common");
   comparison.only_a = rows_a.size() - comparison.pairs;
   comparison.only_b = rows_b.size() - comparison.pairs;
-  comparison.success = statistics::McNemarTest(static_cast<std::int64_t>(comparison.only_a_passes.size()),
-                                               static_cast<std::int64_t>(comparison.only_b_passes.size()));
+  comparison.success = statistics::McNemar(static_cast<std::int64_t>(comparison.only_a_passes.size()),
+                                           static_cast<std::int64_t>(comparison.only_b_passes.size()));
   for (auto& [name, values] : metrics) comparison.metrics.push_back(TestMetric(name, std::move(values)));
   return comparison;
 }
@@ -93,9 +97,9 @@ std::string ToTable(const Comparison& c) {
   text += fmt::format("{:<30}{:>12}{:>12}{:>12}  {:>26}{:>10}\n", "metric", "median A", "median B", "B - A",
                       "95 % interval of B - A", "p");
   for (const Comparison::Metric& m : c.metrics) {
-    text += fmt::format(
-        "{:<30}{:>12.4g}{:>12.4g}{:>12.4g}  {:>26}{:>10.2g}\n", m.name, m.median_a, m.median_b, m.test.shift,
-        fmt::format("[{:.4g}, {:.4g}]", m.test.shift_interval.low, m.test.shift_interval.high), m.test.p);
+    text += fmt::format("{:<30}{:>12.4g}{:>12.4g}{:>12.4g}  {:>26}{:>10.2g}\n", m.name, m.median_a, m.median_b,
+                        m.test.median_difference,
+                        fmt::format("[{:.4g}, {:.4g}]", m.test.interval.low, m.test.interval.high), m.test.p);
   }
   text += "(Wilcoxon's signed ranks; p is not corrected for the number of metrics)\n";
   if (c.only_a + c.only_b > 0) {
@@ -116,10 +120,12 @@ std::string ToJson(const Comparison& c) {
                {"equal_digests", c.equal_digests}};
   json["metrics"] = Json::object();
   for (const Comparison::Metric& m : c.metrics) {
-    json["metrics"][m.name] = {
-        {"median_a", m.median_a}, {"median_b", m.median_b},
-        {"shift", m.test.shift},  {"interval", {m.test.shift_interval.low, m.test.shift_interval.high}},
-        {"p", m.test.p},          {"exact", m.test.exact}};
+    json["metrics"][m.name] = {{"median_a", m.median_a},
+                               {"median_b", m.median_b},
+                               {"difference", m.test.median_difference},
+                               {"interval", {Number(m.test.interval.low), Number(m.test.interval.high)}},
+                               {"p", m.test.p},
+                               {"exact", m.test.exact}};
   }
   return json.dump(2) + "\n";
 }

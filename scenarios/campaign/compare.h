@@ -16,11 +16,11 @@ struct Comparison {
   std::size_t pairs = 0;
   std::size_t only_a = 0, only_b = 0;       // runs without a partner
   std::int64_t passes_a = 0, passes_b = 0;  // of the pairs
-  statistics::McNemar success;
+  statistics::McNemarTest success;
   std::vector<std::uint64_t> only_a_passes, only_b_passes;  // seeds
   struct Metric {
     std::string name;
-    statistics::WilcoxonSignedRank test;  // of B − A
+    statistics::WilcoxonTest test;  // of B − A
     double median_a = 0.0, median_b = 0.0;
   };
   std::vector<Metric> metrics;

@@ -12,21 +12,20 @@
 namespace alula::scenarios::campaign {
 namespace {
 
-/// Points of standard normal space as shares of each distribution.
-std::vector<std::vector<double>> QuantilesOf(const std::vector<search::Point>& points) {
-  std::vector<std::vector<double>> quantiles;
-  for (const search::Point& point : points) {
-    std::vector<double>& shares = quantiles.emplace_back();
-    for (const double z : point) shares.push_back(0.5 * std::erfc(-z / std::sqrt(2.0)));
-  }
-  return quantiles;
+/// A point of standard normal space as shares of each distribution.
+std::vector<double> QuantilesOf(const std::vector<double>& point) {
+  std::vector<double> shares;
+  for (const double z : point) shares.push_back(0.5 * std::erfc(-z / std::sqrt(2.0)));
+  return shares;
 }
 
 /// The parameters in the middle of a region of failures, and a standard deviation to both sides.
-FailureSweepResult::Region DescribeRegion(const search::FailureEstimate::Region& region, const CaseMaker& cases) {
+FailureSweepResult::Region DescribeRegion(const search::FailureRegion& region, const CaseMaker& cases) {
   const auto at = [&](double side) {
-    const search::Point point = region.mean + side * region.spread;
-    return cases.Make(0, &QuantilesOf({point}).front()).parameters;
+    std::vector<double> point = region.mean;
+    for (std::size_t i = 0; i < point.size(); ++i) point[i] += side * region.spread[i];
+    const std::vector<double> shares = QuantilesOf(point);
+    return cases.Make(0, &shares).parameters;
   };
   const auto low = at(-1.0), middle = at(0.0), high = at(1.0);
   FailureSweepResult::Region described;
@@ -54,7 +53,8 @@ FailureSweepResult SearchFailures(const SweepRequest& request, search::FailureSe
   search::FailureSearch search(config, cases.distributions().size(), request.plan.seeds.front());
   FailureSweepResult result;
   for (std::size_t first = 0; !search.done() && !result.sweep.interrupted;) {
-    const std::vector<std::vector<double>> points = QuantilesOf(search.Ask());
+    std::vector<std::vector<double>> points;
+    for (const std::vector<double>& point : search.Ask()) points.push_back(QuantilesOf(point));
     const std::size_t end = first + points.size();
     if (sweep.Fly(folder.path() / ".work", first, end, &points)) {
       result.sweep.interrupted = true;
@@ -65,8 +65,8 @@ FailureSweepResult SearchFailures(const SweepRequest& request, search::FailureSe
     search.Tell(margins);
     first = end;
   }
-  result.estimate = search.estimate();
-  for (const search::FailureEstimate::Region& region : result.estimate.regions) {
+  if (search.done()) result.estimate = search.estimate();
+  for (const search::FailureRegion& region : result.estimate.regions) {
     result.regions.push_back(DescribeRegion(region, cases));
   }
   const bool interrupted = result.sweep.interrupted;

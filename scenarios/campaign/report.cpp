@@ -215,8 +215,8 @@ std::string ToJson(const SweepResult& result) {
 std::string LastLine(const FailureSweepResult& result) {
   const search::FailureEstimate& e = result.estimate;
   if (!e.found) {
-    return fmt::format("{}: no failure reached in {} runs; their probability is below {:.2g} (95 %)",
-                       result.sweep.scenario, e.runs, e.interval.high);
+    return fmt::format("{}: no failure in the last sample; their probability is below {:.2g} (95 %), from {} runs",
+                       result.sweep.scenario, e.interval.high, e.runs);
   }
   return fmt::format("{}: probability of failure {:.3g} (95 % interval {:.2g} to {:.2g}) from {} runs",
                      result.sweep.scenario, e.probability, e.interval.low, e.interval.high, e.runs);
@@ -234,7 +234,7 @@ std::string ToTable(const FailureSweepResult& result) {
   if (e.found) {
     text += fmt::format(
         "{} levels, then {} runs of which {} failed (worth {:.0f}); plain sampling would take {:.2g} runs\n", e.levels,
-        e.final_runs, e.final_failures, e.effective_failures, e.plain_runs);
+        e.final_runs, e.failures, e.effective_sample_size, e.plain_runs);
   }
   if (!e.warning.empty()) text += "warning: " + e.warning + "\n";
   text += LastLine(result) + "\n";
@@ -253,9 +253,11 @@ std::string ToJson(const FailureSweepResult& result) {
                {"runs", e.runs},
                {"levels", e.levels},
                {"final_runs", e.final_runs},
-               {"final_failures", e.final_failures},
-               {"effective_failures", e.effective_failures},
+               {"failures", e.failures},
+               {"effective_sample_size", e.effective_sample_size},
                {"plain_runs", e.plain_runs},
+               {"trusted", e.trusted},
+               {"bound_from", e.bound_from},
                {"warning", e.warning}};
   json["regions"] = Json::array();
   for (const FailureSweepResult::Region& region : result.regions) {

@@ -17,9 +17,7 @@ using statistics::Decision;
 bool Holds(const statistics::Requirement& requirement, const Row& row) {
   if (!requirement.metric) return row.verdict.outcome == Outcome::kPass;
   const auto found = row.verdict.metrics.find(requirement.metric->name);
-  if (found == row.verdict.metrics.end()) return false;  // never measured, as in a run that crashed
-  return requirement.metric->at_most ? found->second <= requirement.metric->limit
-                                     : found->second >= requirement.metric->limit;
+  return found != row.verdict.metrics.end() && requirement.metric->Holds(found->second);  // a crash measures nothing
 }
 
 }  // namespace

@@ -1,150 +1,184 @@
 #include "scenarios/campaign/statistics/effects.h"
 
 #include <algorithm>
-#include <boost/math/distributions/hypergeometric.hpp>
-#include <boost/math/distributions/normal.hpp>
+#include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <numeric>
-#include <optional>
+
+#include "base/error.h"
+#include "scenarios/campaign/statistics/internal/ranks.h"
 
 namespace alula::scenarios::statistics {
+
 namespace {
 
-std::int64_t CountFailures(const std::vector<bool>& failed) { return std::count(failed.begin(), failed.end(), true); }
+constexpr double kMaxExactSteps = 2e7;  // additions of the exact rank-sum distribution: some 20 ms
 
-/// Fisher's exact test, two-sided: of `runs` with `failures` in all, a part of `part_runs` has `part_failures`.
-double Fisher(std::int64_t part_failures, std::int64_t part_runs, std::int64_t failures, std::int64_t runs) {
-  const auto u = [](std::int64_t x) { return static_cast<unsigned>(x); };
-  const boost::math::hypergeometric_distribution<double> chance(u(failures), u(part_runs), u(runs));
-  const double seen = boost::math::pdf(chance, u(part_failures));
-  const std::int64_t least = std::max<std::int64_t>(0, part_runs + failures - runs);
-  const std::int64_t most = std::min(part_runs, failures);
+struct Sample {
+  std::vector<double> values;
+  std::vector<bool> failed;
+  std::size_t failures = 0;
+};
+
+Sample FiniteSample(const std::vector<double>& values, const std::vector<bool>& failed) {
+  Sample sample;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (!std::isfinite(values[i])) continue;
+    sample.values.push_back(values[i]);
+    sample.failed.push_back(failed[i]);
+    sample.failures += failed[i] ? 1 : 0;
+  }
+  return sample;
+}
+
+/// weights[s]: ways to choose `chosen` of the (doubled) ranks so that they sum to s.
+std::vector<double> ChoiceSumCounts(const std::vector<int>& ranks, std::size_t chosen, std::size_t max_sum) {
+  std::vector<std::vector<double>> ways(chosen + 1, std::vector<double>(max_sum + 1, 0.0));
+  ways[0][0] = 1.0;
+  for (const int rank : ranks) {
+    const auto step = static_cast<std::size_t>(rank);
+    for (std::size_t c = chosen; c > 0; --c) {
+      for (std::size_t s = step; s <= max_sum; ++s) ways[c][s] += ways[c - 1][s - step];
+    }
+  }
+  return ways[chosen];
+}
+
+double MannWhitneyP(const Ranks& ranks, int twice_rank_sum, std::size_t failures) {
+  const auto all = static_cast<double>(ranks.twice_rank.size());
+  const auto m = static_cast<double>(failures);
+  std::vector<int> largest = ranks.twice_rank;
+  std::sort(largest.begin(), largest.end(), std::greater<>());
+  const int max_sum = std::accumulate(largest.begin(), largest.begin() + static_cast<std::ptrdiff_t>(failures), 0);
+  if (all * m * max_sum <= kMaxExactSteps) {
+    return TwoSidedExact(ChoiceSumCounts(ranks.twice_rank, failures, static_cast<std::size_t>(max_sum)),
+                         twice_rank_sum);
+  }
+  const double off = std::abs(twice_rank_sum / 2.0 - m * (all + 1.0) / 2.0) - 0.5;  // 0.5: continuity
+  const double variance = m * (all - m) / 12.0 * (all + 1.0 - ranks.ties / (all * (all - 1.0)));
+  return off <= 0.0 ? 1.0 : TwoSidedNormal(off / std::sqrt(variance));
+}
+
+Split BestSplit(const Sample& sample) {
+  std::vector<std::size_t> order(sample.values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return sample.values[a] < sample.values[b]; });
+  Split best;
+  double best_gap = -1.0, failures_below = 0.0;
+  for (std::size_t below = 1; below < order.size(); ++below) {
+    failures_below += sample.failed[order[below - 1]] ? 1.0 : 0.0;
+    const double left = sample.values[order[below - 1]], right = sample.values[order[below]];
+    if (left == right) continue;
+    const auto n_below = static_cast<double>(below), n_above = static_cast<double>(order.size() - below);
+    const double rate_below = failures_below / n_below;
+    const double rate_above = (static_cast<double>(sample.failures) - failures_below) / n_above;
+    // The decrease of Gini impurity is this times 2/n².
+    const double gap = n_below * n_above * (rate_below - rate_above) * (rate_below - rate_above);
+    if (gap <= best_gap) continue;
+    best_gap = gap;
+    best = {0.5 * left + 0.5 * right, static_cast<std::int64_t>(below), static_cast<std::int64_t>(order.size() - below),
+            rate_below, rate_above};
+  }
+  return best;
+}
+
+std::optional<Effect> NumberEffect(const std::vector<double>& values, const std::vector<bool>& failed) {
+  const Sample sample = FiniteSample(values, failed);
+  if (sample.failures == 0 || sample.failures == sample.values.size()) return std::nullopt;
+  const auto [least, most] = std::minmax_element(sample.values.begin(), sample.values.end());
+  if (*least == *most) return std::nullopt;
+  const Ranks ranks = RankDoubled(sample.values);
+  int twice_rank_sum = 0;
+  for (std::size_t i = 0; i < sample.values.size(); ++i) twice_rank_sum += sample.failed[i] ? ranks.twice_rank[i] : 0;
+  const auto m = static_cast<double>(sample.failures);
+  const double passes = static_cast<double>(sample.values.size()) - m;
+  const double auc = (twice_rank_sum / 2.0 - m * (m + 1.0) / 2.0) / (m * passes);
+  return Effect{"", MannWhitneyP(ranks, twice_rank_sum, sample.failures), 1.0, NumericEffect{auc, BestSplit(sample)}};
+}
+
+double LogChoose(double n, double k) { return std::lgamma(n + 1.0) - std::lgamma(k + 1.0) - std::lgamma(n - k + 1.0); }
+
+/// Fisher 1922: all tables with the same margins that are no more likely than this one.
+double FisherP(double failed_first, double first, double second, double failures) {
+  const auto log_weight = [&](double k) { return LogChoose(first, k) + LogChoose(second, failures - k); };
+  constexpr double kSameWeight = 1e-7;  // tables as likely as this one, but for rounding
+  const double observed = log_weight(failed_first), all = LogChoose(first + second, failures);
   double p = 0.0;
-  for (std::int64_t k = least; k <= most; ++k) {
-    const double other = boost::math::pdf(chance, u(k));
-    if (other <= seen * (1.0 + 1e-9)) p += other;
+  for (double k = std::max(0.0, failures - second); k <= std::min(first, failures); ++k) {
+    if (log_weight(k) <= observed + kSameWeight) p += std::exp(log_weight(k) - all);
   }
   return std::min(1.0, p);
 }
 
-std::string Text(const char* word, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, "%s %.5g", word, value);
-  return text;
-}
-
-/// The values in order, with what became of their runs.
-std::vector<std::size_t> OrderOf(const std::vector<double>& numbers) {
-  std::vector<std::size_t> order(numbers.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return numbers[a] < numbers[b]; });
-  return order;
-}
-
-/// Mann and Whitney's test, normal with corrections for ties and continuity.
-void Separate(const std::vector<double>& numbers, const std::vector<bool>& failed, Effect& effect) {
-  const std::vector<std::size_t> order = OrderOf(numbers);
-  const auto n = static_cast<double>(numbers.size());
-  const auto f = static_cast<double>(CountFailures(failed)), g = n - f;
-  double rank_sum = 0.0, tie_term = 0.0;
-  for (std::size_t i = 0; i < order.size();) {
-    std::size_t end = i + 1;
-    while (end < order.size() && numbers[order[end]] == numbers[order[i]]) ++end;
-    for (std::size_t j = i; j < end; ++j) rank_sum += failed[order[j]] ? 0.5 * static_cast<double>(i + 1 + end) : 0.0;
-    const auto tied = static_cast<double>(end - i);
-    tie_term += tied * tied * tied - tied;
-    i = end;
+double ChiSquareP(const std::vector<WordRate>& words, double rate) {
+  double chi_square = 0.0;
+  for (const WordRate& word : words) {
+    const double off = word.failure_rate - rate;
+    chi_square += static_cast<double>(word.runs) * off * off / (rate * (1.0 - rate));
   }
-  const double larger = rank_sum - f * (f + 1.0) / 2.0;  // pairs in which the failed run has the larger value
-  effect.auc = larger / (f * g);
-  const double sigma = std::sqrt(f * g / 12.0 * (n + 1.0 - tie_term / (n * (n - 1.0))));
-  const double z = std::max(0.0, std::abs(larger - 0.5 * f * g) - 0.5) / sigma;
-  effect.p = 2.0 * boost::math::cdf(boost::math::complement(boost::math::normal(), z));
+  return boost::math::gamma_q(static_cast<double>(words.size() - 1) / 2.0, chi_square / 2.0);
 }
 
-/// The threshold at which the failure rates of both sides differ most, by information gained (as trees split).
-void Split(const std::vector<double>& numbers, const std::vector<bool>& failed, Effect& effect) {
-  const std::vector<std::size_t> order = OrderOf(numbers);
-  const auto entropy = [](std::int64_t failures, std::int64_t runs) {
-    if (failures == 0 || failures == runs) return 0.0;
-    const double share = static_cast<double>(failures) / static_cast<double>(runs);
-    return -static_cast<double>(runs) * (share * std::log(share) + (1.0 - share) * std::log1p(-share));
+std::optional<Effect> WordEffect(const std::vector<std::string>& values, const std::vector<bool>& failed) {
+  struct Count {
+    std::int64_t runs = 0, failures = 0;
   };
-  const auto runs = static_cast<std::int64_t>(order.size());
-  const std::int64_t failures = CountFailures(failed);
-  std::int64_t below = 0;
-  double best = entropy(failures, runs);
-  for (std::size_t i = 0; i + 1 < order.size(); ++i) {
-    below += failed[order[i]];
-    if (numbers[order[i]] == numbers[order[i + 1]]) continue;
-    const auto count = static_cast<std::int64_t>(i + 1);
-    const double left = entropy(below, count) + entropy(failures - below, runs - count);
-    if (left >= best) continue;
-    best = left;
-    const double threshold = 0.5 * (numbers[order[i]] + numbers[order[i + 1]]);
-    effect.shares = {{Text("below", threshold), below, count},
-                     {Text("above", threshold), failures - below, runs - count}};
+  std::map<std::string, Count> counts;
+  double failures = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Count& count = counts[values[i]];
+    ++count.runs;
+    count.failures += failed[i] ? 1 : 0;
+    failures += failed[i] ? 1.0 : 0.0;
   }
-}
-
-Effect OfNumbers(const Column& column, const std::vector<bool>& failed) {
+  if (counts.size() < 2) return std::nullopt;
+  std::vector<WordRate> words;
+  for (const auto& [word, count] : counts) {
+    words.push_back({word, count.runs, static_cast<double>(count.failures) / static_cast<double>(count.runs)});
+  }
   Effect effect;
-  effect.name = column.name;
-  Separate(column.numbers, failed, effect);
-  Split(column.numbers, failed, effect);
+  if (words.size() == 2) {
+    const Count& first = counts.begin()->second;
+    effect.p = FisherP(static_cast<double>(first.failures), static_cast<double>(first.runs),
+                       static_cast<double>(words[1].runs), failures);
+  } else {
+    effect.p = ChiSquareP(words, failures / static_cast<double>(values.size()));
+  }
+  std::stable_sort(words.begin(), words.end(),
+                   [](const WordRate& a, const WordRate& b) { return a.failure_rate > b.failure_rate; });
+  effect.detail = std::move(words);
   return effect;
 }
 
-Effect OfWords(const Column& column, const std::vector<bool>& failed) {
-  Effect effect;
-  effect.name = column.name;
-  std::map<std::string, Share> shares;
-  for (std::size_t i = 0; i < column.words.size(); ++i) {
-    Share& share = shares[column.words[i]];
-    share.label = column.words[i];
-    ++share.runs;
-    share.failures += failed[i];
+std::optional<Effect> EffectOf(const ParameterColumn& column, const std::vector<bool>& failed) {
+  if (std::visit([](const auto& values) { return values.size(); }, column.values) != failed.size()) {
+    throw base::FaultError("column_length", "parameter " + column.name + " has not one value a run");
   }
-  const auto runs = static_cast<std::int64_t>(failed.size());
-  const std::int64_t failures = CountFailures(failed);
-  for (const auto& [word, share] : shares) {
-    effect.p = std::min(effect.p, Fisher(share.failures, share.runs, failures, runs));
-    effect.shares.push_back(share);
-  }
-  effect.p = std::min(1.0, effect.p * static_cast<double>(shares.size()));
-  const auto rate = [](const Share& s) { return static_cast<double>(s.failures) / static_cast<double>(s.runs); };
-  std::stable_sort(effect.shares.begin(), effect.shares.end(),
-                   [&](const Share& a, const Share& b) { return rate(a) > rate(b); });
+  const auto* numbers = std::get_if<std::vector<double>>(&column.values);
+  std::optional<Effect> effect = numbers != nullptr
+                                     ? NumberEffect(*numbers, failed)
+                                     : WordEffect(std::get<std::vector<std::string>>(column.values), failed);
+  if (effect) effect->name = column.name;
   return effect;
-}
-
-/// Nothing for a column that does not vary.
-std::optional<Effect> EffectOf(const Column& column, const std::vector<bool>& failed) {
-  const auto varies = [](const auto& values) {
-    return std::any_of(values.begin(), values.end(), [&](const auto& value) { return value != values.front(); });
-  };
-  if (!column.numbers.empty()) {
-    return varies(column.numbers) ? std::optional(OfNumbers(column, failed)) : std::nullopt;
-  }
-  return varies(column.words) ? std::optional(OfWords(column, failed)) : std::nullopt;
 }
 
 }  // namespace
 
-std::vector<Effect> RankEffects(const std::vector<Column>& columns, const std::vector<bool>& failed) {
+std::vector<Effect> RankEffects(const std::vector<ParameterColumn>& columns, const std::vector<bool>& failed) {
+  const auto failures = std::count(failed.begin(), failed.end(), true);
+  if (failures == 0 || failures == static_cast<std::ptrdiff_t>(failed.size())) return {};
   std::vector<Effect> effects;
-  const std::int64_t failures = CountFailures(failed);
-  if (failures == 0 || failures == static_cast<std::int64_t>(failed.size())) return effects;
-  for (const Column& column : columns) {
-    if (std::optional<Effect> effect = EffectOf(column, failed)) effects.push_back(std::move(*effect));
+  for (const ParameterColumn& column : columns) {
+    if (std::optional<Effect> effect = EffectOf(column, failed)) effects.push_back(*std::move(effect));
   }
-  std::stable_sort(effects.begin(), effects.end(), [](const Effect& a, const Effect& b) { return a.p < b.p; });
-  double running = 0.0;
+  std::sort(effects.begin(), effects.end(),
+            [](const Effect& a, const Effect& b) { return a.p != b.p ? a.p < b.p : a.name < b.name; });
+  double largest = 0.0;
   for (std::size_t i = 0; i < effects.size(); ++i) {
-    running = std::max(running, std::min(1.0, effects[i].p * static_cast<double>(effects.size() - i)));
-    effects[i].p_holm = running;
+    largest = std::max(largest, effects[i].p * static_cast<double>(effects.size() - i));
+    effects[i].p_holm = std::min(1.0, largest);
   }
   return effects;
 }

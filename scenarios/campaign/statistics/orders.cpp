@@ -10,44 +10,58 @@
 
 namespace alula::scenarios::statistics {
 
-std::vector<std::vector<double>> LatinHypercube(std::int64_t runs, std::size_t dimensions, std::uint64_t seed) {
-  const auto n = static_cast<std::size_t>(runs);
-  std::vector<std::vector<double>> points(n, std::vector<double>(dimensions));
-  for (std::size_t d = 0; d < dimensions; ++d) {
-    base::RandomStream stream(seed, "latin_hypercube/" + std::to_string(d));
-    std::vector<std::size_t> slices(n);
-    std::iota(slices.begin(), slices.end(), std::size_t{0});
-    for (std::size_t i = n; i > 1; --i) std::swap(slices[i - 1], slices[stream.Index(i)]);  // Fisher and Yates
-    for (std::size_t i = 0; i < n; ++i) {
-      double inside = stream.Uniform();
-      while (inside == 0.0) inside = stream.Uniform();
-      points[i][d] = (static_cast<double>(slices[i]) + inside) / static_cast<double>(n);
+namespace {
+
+using Points = std::vector<std::vector<double>>;
+
+/// In (0, 1), both excluded, because quantile functions are infinite there: 52 bits and a half are exact in a double.
+double OpenUnit(std::uint64_t bits) { return (static_cast<double>(bits >> 12) + 0.5) * 0x1p-52; }
+
+/// In (0, 1) with 30 bits, so that stratum + share is exact up to 2^22 runs and no point rounds into the next stratum.
+double OpenUnitCoarse(std::uint64_t bits) { return (static_cast<double>(bits >> 34) + 0.5) * 0x1p-30; }
+
+std::vector<std::int64_t> Permutation(std::int64_t size, base::RandomStream& random) {
+  std::vector<std::int64_t> order(static_cast<std::size_t>(size));
+  std::iota(order.begin(), order.end(), std::int64_t{0});
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.Index(i)]);
+  return order;
+}
+
+Points EmptyPoints(std::int64_t runs, std::size_t dimensions) {
+  return Points(static_cast<std::size_t>(runs), std::vector<double>(dimensions));
+}
+
+}  // namespace
+
+Points LatinHypercube(std::int64_t runs, std::size_t dimensions, std::uint64_t seed) {
+  Points points = EmptyPoints(runs, dimensions);
+  for (std::size_t k = 0; k < dimensions; ++k) {
+    base::RandomStream random(seed, "order/latin_hypercube/" + std::to_string(k));
+    const std::vector<std::int64_t> stratum = Permutation(runs, random);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      points[i][k] = (static_cast<double>(stratum[i]) + OpenUnitCoarse(random.Bits())) / static_cast<double>(runs);
     }
   }
   return points;
 }
 
-std::vector<std::vector<double>> SobolPoints(std::int64_t first, std::int64_t runs, std::size_t dimensions,
-                                             std::uint64_t seed) {
-  if (dimensions > kMostSobolDimensions) {
-    throw base::InputError("Sobol's sequence has at most " + std::to_string(kMostSobolDimensions) +
-                           " dimensions, not " + std::to_string(dimensions));
+Points SobolPoints(std::int64_t first, std::int64_t runs, std::size_t dimensions, std::uint64_t seed) {
+  if (dimensions > kMaxSobolDimensions) {
+    throw base::InputError("a Sobol order has at most " + std::to_string(kMaxSobolDimensions) + " dimensions, not " +
+                           std::to_string(dimensions));
   }
-  constexpr int kDigits = 64;
-  std::vector<std::vector<double>> points(static_cast<std::size_t>(runs), std::vector<double>(dimensions));
+  Points points = EmptyPoints(runs, dimensions);
   if (dimensions == 0) return points;
-  boost::random::sobol_engine<std::uint64_t, kDigits> engine(dimensions);
-  // The engine begins with the second point; the first, all zeros, belongs to the sequence: 2^k points are balanced.
-  if (first > 0) engine.discard(static_cast<std::uint64_t>(first - 1) * dimensions);
   std::vector<std::uint64_t> shift(dimensions);
-  base::RandomStream stream(seed, "sobol");
-  for (std::uint64_t& digits : shift) digits = stream.Bits();
+  for (std::size_t k = 0; k < dimensions; ++k) {
+    shift[k] = base::RandomStream(seed, "order/sobol/" + std::to_string(k)).Bits();
+  }
+
+  boost::random::sobol sequence(dimensions);  // leaves out point 0, which is the origin
+  if (first > 0) sequence.seed(static_cast<std::uint64_t>(first - 1));
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool origin = first == 0 && i == 0;
-    for (std::size_t d = 0; d < dimensions; ++d) {
-      const std::uint64_t digits = ((origin ? 0 : engine()) ^ shift[d]) >> 11U;  // 53 of them, mid-cell
-      points[i][d] = (static_cast<double>(digits) + 0.5) * 0x1p-53;
-    }
+    for (std::size_t k = 0; k < dimensions; ++k) points[i][k] = OpenUnit((origin ? 0 : sequence()) ^ shift[k]);
   }
   return points;
 }

@@ -6,15 +6,18 @@
 
 namespace alula::scenarios::statistics {
 
-/// Points of the open unit cube, one a run, in which every dimension has one point in each of `runs` equal slices
-/// (McKay, Beckman and Conover 1979).
+/// Most dimensions of SobolPoints: the direction numbers of Joe & Kuo 2008 that Boost holds.
+constexpr std::size_t kMaxSobolDimensions = 3667;
+
+/// [runs][dimensions] points of the open unit cube: in every dimension each of the `runs` equal strata holds exactly
+/// one point (McKay, Beckman & Conover 1979). All points depend on `runs`: a sweep that grows is another design.
 std::vector<std::vector<double>> LatinHypercube(std::int64_t runs, std::size_t dimensions, std::uint64_t seed);
 
-/// Sobol's sequence (1967; direction numbers of Joe and Kuo 2008) from point `first` on, shifted digit by digit by the
-/// seed, so that no coordinate is 0 or 1. The first points do not change when more are asked for.
-/// Throws base::InputError for more than kMostSobolDimensions.
+/// [runs][dimensions] points first … first + runs - 1 of the Sobol sequence, in the open unit cube; point i does not
+/// depend on how many are asked for. Best balanced where first is 0 and runs a power of two. Each dimension is
+/// shifted digitally (exclusive or with random bits of `seed`), which keeps the balance and makes the means unbiased.
+/// InputError for more than kMaxSobolDimensions.
 std::vector<std::vector<double>> SobolPoints(std::int64_t first, std::int64_t runs, std::size_t dimensions,
                                              std::uint64_t seed);
-constexpr std::size_t kMostSobolDimensions = 3667;
 
 }  // namespace alula::scenarios::statistics

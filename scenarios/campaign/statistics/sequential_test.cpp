@@ -1,89 +1,81 @@
 #include "scenarios/campaign/statistics/sequential_test.h"
 
-#include <boost/math/special_functions/beta.hpp>
+#include <algorithm>
 #include <cmath>
-#include <limits>
+
+#include "scenarios/campaign/statistics/internal/log_beta.h"
 
 namespace alula::scenarios::statistics {
+
 namespace {
 
-constexpr double kPrior = 0.5;  // both parameters of Jeffreys' Beta
+constexpr double kPriorA = 0.5;        // Jeffreys' side, towards the tested rate
+constexpr double kLeastPriorB = 0.25;  // smaller: sooner if all pass, later with the first failure
+constexpr double kMostPriorB = 50.0;   // without it one failure would never bound a rate away from 1
+constexpr int kBisections = 60;        // to the last bits of a double
 
-double LogBeta(double a, double b) { return std::lgamma(a) + std::lgamma(b) - std::lgamma(a + b); }
+double PriorB(double rate) { return std::clamp(kPriorA * (1.0 - rate) / rate, kLeastPriorB, kMostPriorB); }
 
-/// log of the likelihood of rate p, 0 log 0 = 0.
-double LogLikelihood(double p, double successes, double failures) {
-  const double s = successes > 0.0 ? successes * std::log(p) : 0.0;
-  return s + (failures > 0.0 ? failures * std::log1p(-p) : 0.0);
-}
-
-/// log ∫ p^s (1−p)^f dπ(p) over one side of p₀, π being the prior cut off there. A side that holds less than a double
-/// can tell gives −∞: no evidence.
-double LogMixture(double p0, double successes, double failures, bool above) {
-  const double a = kPrior + successes, b = kPrior + failures;
-  const auto share = [&](double x, double y) {
-    return above ? boost::math::ibetac(x, y, p0) : boost::math::ibeta(x, y, p0);
-  };
-  return LogBeta(a, b) + std::log(share(a, b)) - LogBeta(kPrior, kPrior) - std::log(share(kPrior, kPrior));
-}
+double LogLevel(double confidence) { return -std::log1p(-confidence); }
 
 }  // namespace
 
-double LogEvidenceAgainstBelow(double p0, std::int64_t successes, std::int64_t failures) {
+double LogEvidenceAbove(double rate, std::int64_t successes, std::int64_t failures) {
   const auto s = static_cast<double>(successes), f = static_cast<double>(failures);
-  return LogMixture(p0, s, f, true) - LogLikelihood(p0, s, f);
+  const double b = PriorB(rate);
+  return LogUpperBeta(s + kPriorA, f + b, rate) - LogUpperBeta(kPriorA, b, rate) - s * std::log(rate) -
+         f * std::log1p(-rate);
 }
 
-double LogEvidenceAgainstAtLeast(double p0, std::int64_t successes, std::int64_t failures) {
-  const auto s = static_cast<double>(successes), f = static_cast<double>(failures);
-  return LogMixture(p0, s, f, false) - LogLikelihood(p0, s, f);
+double LogEvidenceBelow(double rate, std::int64_t successes, std::int64_t failures) {
+  return LogEvidenceAbove(1.0 - rate, failures, successes);
+}
+
+double AnytimeLowerBound(std::int64_t successes, std::int64_t failures, double confidence) {
+  if (successes == 0) return 0.0;
+  // At the observed share no other rate is likelier, so that the evidence there is at most 1: the bound lies below.
+  double low = 0.0, high = static_cast<double>(successes) / static_cast<double>(successes + failures);
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = 0.5 * (low + high);
+    (LogEvidenceAbove(middle, successes, failures) >= LogLevel(confidence) ? low : high) = middle;
+  }
+  return low;
+}
+
+double AnytimeUpperBound(std::int64_t successes, std::int64_t failures, double confidence) {
+  return 1.0 - AnytimeLowerBound(failures, successes, confidence);
 }
 
 Decision SequentialTest::Add(bool success) {
-  ++(success ? successes_ : failures_);
-  if (decision_ != Decision::kUndecided) return decision_;
-  const double enough = -std::log1p(-requirement_.confidence);
-  const double p0 = requirement_.at_least;
-  // Runs that lie on one side of the limit are no evidence for the other: there no likelihood ratio exceeds 1.
-  if (static_cast<double>(successes_) > p0 * static_cast<double>(runs())) {
-    if (LogEvidenceAgainstBelow(p0, successes_, failures_) >= enough) decision_ = Decision::kConfirmed;
-  } else if (LogEvidenceAgainstAtLeast(p0, successes_, failures_) >= enough) {
-    decision_ = Decision::kRejected;
+  ++(success ? successes : failures);
+  if (decision != Decision::kUndecided) return decision;
+  // A pass never lessens the evidence above nor raises the one below, and a failure the other way round.
+  const double rate = requirement.at_least, level = LogLevel(requirement.confidence);
+  if (success) {
+    if (LogEvidenceAbove(rate, successes, failures) >= level) decision = Decision::kConfirmed;
+  } else {
+    if (LogEvidenceBelow(rate, successes, failures) >= level) decision = Decision::kRejected;
   }
-  return decision_;
+  if (decision != Decision::kUndecided) decided_after = successes + failures;
+  return decision;
 }
 
 Interval SequentialTest::interval() const {
-  if (runs() == 0) return {0.0, 1.0};
-  const auto s = static_cast<double>(successes_), f = static_cast<double>(failures_);
-  const double mixture = LogBeta(kPrior + s, kPrior + f) - LogBeta(kPrior, kPrior);
-  const double enough = -std::log1p(-requirement_.confidence);
-  const auto excluded = [&](double p) { return mixture - LogLikelihood(p, s, f) >= enough; };
-  const double best = s / (s + f);
-  // The likelihood falls to both sides of its largest value, so each end is found by bisection.
-  const auto end = [&](double outside) {
-    double inside = best;
-    for (int i = 0; i < 60; ++i) {
-      const double middle = 0.5 * (inside + outside);
-      (excluded(middle) ? outside : inside) = middle;
-    }
-    return inside;
-  };
-  return {successes_ == 0 ? 0.0 : end(0.0), failures_ == 0 ? 1.0 : end(1.0)};
+  const double one_sided = 0.5 + requirement.confidence / 2.0;
+  return {AnytimeLowerBound(successes, failures, one_sided), AnytimeUpperBound(successes, failures, one_sided)};
 }
 
 std::int64_t RunsIfAllPass(const RateRequirement& requirement) {
-  const double enough = -std::log1p(-requirement.confidence);
-  std::int64_t least = 0, most = 1;
-  while (LogEvidenceAgainstBelow(requirement.at_least, most, 0) < enough) {
-    least = most;
-    most *= 2;
+  const double level = LogLevel(requirement.confidence);
+  const auto confirms = [&](std::int64_t runs) { return LogEvidenceAbove(requirement.at_least, runs, 0) >= level; };
+  std::int64_t enough = 1;
+  while (!confirms(enough)) enough *= 2;
+  std::int64_t too_few = enough / 2;
+  while (enough - too_few > 1) {
+    const std::int64_t middle = too_few + (enough - too_few) / 2;
+    (confirms(middle) ? enough : too_few) = middle;
   }
-  while (most - least > 1) {
-    const std::int64_t middle = least + (most - least) / 2;
-    (LogEvidenceAgainstBelow(requirement.at_least, middle, 0) < enough ? least : most) = middle;
-  }
-  return most;
+  return enough;
 }
 
 }  // namespace alula::scenarios::statistics
