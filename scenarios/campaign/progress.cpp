@@ -31,8 +31,8 @@ std::string DurationText(double seconds) {
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-SweepProgress::SweepProgress(std::string name, bool on)
-    : name_(std::move(name)), on_(on), terminal_(::isatty(STDERR_FILENO) != 0) {}
+SweepProgress::SweepProgress(std::string name, bool on, bool names_failures)
+    : name_(std::move(name)), on_(on), names_failures_(names_failures), terminal_(::isatty(STDERR_FILENO) != 0) {}
 
 void SweepProgress::Show(const SweepNews& news) {
   if (!on_) return;
@@ -48,7 +48,7 @@ void SweepProgress::Show(const SweepNews& news) {
 void SweepProgress::ShowPlain(const SweepNews& news) {
   if (news.row == nullptr) return;
   const Verdict& verdict = news.row->verdict;
-  if (verdict.outcome != Outcome::kPass) {
+  if (names_failures_ && verdict.outcome != Outcome::kPass) {
     fmt::print(stderr, "{}: seed {}: {} ({})\n", name_, verdict.seed, Word(verdict.outcome), FailureOf(verdict));
   }
   constexpr std::size_t kLines = 20;

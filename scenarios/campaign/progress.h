@@ -7,10 +7,10 @@
 namespace alula::scenarios::campaign {
 
 /// How far a sweep is, on stderr: a bar that redraws itself on a terminal; otherwise a line for each run that did not
-/// pass and one for every twentieth of the sweep.
+/// pass (unless failures are what is looked for) and one for every twentieth of the sweep.
 class SweepProgress {
  public:
-  SweepProgress(std::string name, bool on);
+  SweepProgress(std::string name, bool on, bool names_failures = true);
   void Show(const SweepNews& news);
   /// Wipes the bar.
   void Clear();
@@ -20,6 +20,7 @@ class SweepProgress {
 
   std::string name_;
   bool on_;
+  bool names_failures_;
   bool terminal_;
   bool drawn_ = false;
   std::size_t told_ = 0;  // twentieths

@@ -107,7 +107,7 @@ int Worker(const CommandLine& line) {
 
 int Search(const SweepRequest& request, const CommandLine& line) {
   if (!line.sweep.require.empty()) throw base::InputError("sweep: --search and --require exclude each other");
-  SweepProgress progress(fs::path(request.plan.scenario).stem().string(), line.talks());
+  SweepProgress progress(fs::path(request.plan.scenario).stem().string(), line.talks(), false);
   SweepRequest told = request;
   told.news = [&progress](const SweepNews& news) { progress.Show(news); };
   const FailureSweepResult result = SearchFailures(told, {});
