@@ -92,7 +92,7 @@ TEST(Sweep, MisbehaviourIsARowAndTheSweepGoesOn) {
   const CommandResult sweep =
       Alula({"sweep", "hover", "--stack", MISBEHAVING_STACK, "--grid",
              "stack.parameters=\"\",throw@1,segfault@1,abort@1,exit@1,hang@1,memory@1", "--out", out, "--hang-limit",
-             "2", "--memory-limit", "400", "--set", "criteria=[{type: time_limit, limit: 3 s}]", "--junit",
+             "8", "--memory-limit", "400", "--set", "criteria=[{type: time_limit, limit: 3 s}]", "--junit",
              folder.path() / "junit.xml"});
   EXPECT_EQ(sweep.exit_code, 3) << sweep.out << sweep.err;
   std::map<std::string, std::string> reasons;
