@@ -27,13 +27,6 @@ constexpr std::int64_t kGlance = 50'000'000;           // ns between looks at a 
 constexpr std::int64_t kGlanceAtMemory = 10'000'000;   // memory can be taken fast
 constexpr std::int64_t kTimeForTrace = 2'000'000'000;  // that a hanging process has to write its stack
 
-sigset_t Watched() {
-  sigset_t signals;
-  ::sigemptyset(&signals);
-  for (const int signal : {SIGCHLD, SIGINT, SIGTERM}) ::sigaddset(&signals, signal);
-  return signals;
-}
-
 /// A page of zeros that a fork does not copy.
 class SharedPulse {
  public:
@@ -93,7 +86,7 @@ class Watch {
   void Sleep() {
     const std::int64_t glance = limits_.memory ? kGlanceAtMemory : kGlance;
     const timespec timeout{0, static_cast<long>(glance)};
-    const sigset_t signals = Watched();
+    const sigset_t signals = WatchedSignals();
     siginfo_t info;
     const int signal = ::sigtimedwait(&signals, &info, &timeout);
     if (signal == SIGINT || signal == SIGTERM) PassOn(signal, info);
@@ -236,10 +229,17 @@ void WriteStack(int signal) {
 
 }  // namespace
 
+sigset_t WatchedSignals() {
+  sigset_t signals;
+  ::sigemptyset(&signals);
+  for (const int signal : {SIGCHLD, SIGINT, SIGTERM}) ::sigaddset(&signals, signal);
+  return signals;
+}
+
 Ending Supervise(const Limits& limits, const std::function<Report(Pulse&)>& work) {
   const SharedPulse pulse;
   const ReportFile file;
-  const sigset_t signals = Watched();
+  const sigset_t signals = WatchedSignals();
   sigset_t before;
   ::sigprocmask(SIG_BLOCK, &signals, &before);
   std::fflush(nullptr);

@@ -3,6 +3,7 @@
 #include <sys/types.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -45,6 +46,9 @@ struct Ending {
   std::optional<Death> death;
   bool interrupted = false;  // SIGINT or SIGTERM came; a process that it killed is no death
 };
+
+/// What one who watches processes waits for, blocked: SIGCHLD, SIGINT, SIGTERM.
+sigset_t WatchedSignals();
 
 /// Does `work` in a process of its own and watches it: whatever it does to itself (a crash, a hang, all memory taken,
 /// an exit in the middle), this function returns and says what happened. SIGINT and SIGTERM are passed on. The process

@@ -23,13 +23,6 @@ namespace alula::scenarios::campaign {
 namespace fs = std::filesystem;
 namespace {
 
-sigset_t Watched() {
-  sigset_t signals;
-  ::sigemptyset(&signals);
-  for (const int signal : {SIGCHLD, SIGINT, SIGTERM}) ::sigaddset(&signals, signal);
-  return signals;
-}
-
 std::string ReadText(const fs::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
@@ -81,7 +74,7 @@ std::string ProgramHash() {
 }
 
 Executor::Executor(ExecutorOptions options) : options_(std::move(options)), program_(ProgramHash()) {
-  const sigset_t signals = Watched();
+  const sigset_t signals = WatchedSignals();
   ::sigprocmask(SIG_BLOCK, &signals, &mask_before_);
 }
 
@@ -148,7 +141,7 @@ std::optional<Executor::Finished> Executor::Wait(std::chrono::milliseconds patie
     if (left.count() <= 0) return std::nullopt;
     constexpr std::int64_t kSecond = 1'000'000'000;
     const timespec timeout{left.count() / kSecond, static_cast<long>(left.count() % kSecond)};
-    const sigset_t signals = Watched();
+    const sigset_t signals = WatchedSignals();
     siginfo_t info;
     const int signal = ::sigtimedwait(&signals, &info, &timeout);
     if (signal == SIGINT || signal == SIGTERM) {
