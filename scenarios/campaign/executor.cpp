@@ -208,7 +208,8 @@ std::optional<Row> Executor::Adopt(const Case& flown) const {
     return std::nullopt;
   }
   Row row = RowOf(flown, 0);
-  row.wall_s = nlohmann::json::parse(ReadText(folder / "timing.json"), nullptr, false).value("wall_s", 0.0);
+  const nlohmann::json timing = nlohmann::json::parse(ReadText(folder / "timing.json"), nullptr, false);
+  if (timing.is_object()) row.wall_s = timing.value("wall_s", 0.0);  // a run that died has none
   return row;
 }
 

@@ -86,6 +86,21 @@ TEST(Sweep, KilledAtAnyMomentItGoesOn) {
   EXPECT_EQ(nlohmann::json::parse(again.out)["flown"], 0) << "nothing is flown twice";
 }
 
+TEST(Sweep, TakesOverFoldersThatHaveNoRow) {
+  const TemporaryFolder folder("sweep_adopt");
+  const fs::path out = folder.path() / "s";
+  const std::vector<std::string> arguments = {
+      "sweep", "hover", "--stack", MISBEHAVING_STACK, "--grid", "stack.parameters=\"\",segfault@1", "--keep",
+      "all",   "--out", out,       "--json",          "-"};
+  EXPECT_EQ(Alula(arguments).exit_code, 3);
+  const std::vector<std::string> before = Results(out);
+  fs::remove(out / "sweep.db");  // as if it had been killed before it wrote the rows
+  const CommandResult again = Alula(arguments);
+  EXPECT_EQ(again.exit_code, 3) << again.err;
+  EXPECT_EQ(nlohmann::json::parse(again.out)["flown"], 0);
+  EXPECT_EQ(Results(out), before);
+}
+
 TEST(Sweep, MisbehaviourIsARowAndTheSweepGoesOn) {
   const TemporaryFolder folder("sweep_bad");
   const fs::path out = folder.path() / "s";
