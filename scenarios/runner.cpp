@@ -22,8 +22,8 @@ constexpr const char* kVehicle = "vehicle0";
 
 /// Puts a run's files in place; what not every run leaves is named, so that none of an earlier run stays.
 void Commit(sim::RunFolder& folder) {
-  folder.Commit(
-      {"map.bt", "video.mp4", "dataset", "crash.txt", "world.json", "timing.json", "truth.tum", "estimate.tum"});
+  folder.Commit({"map.bt", "video.mp4", "dataset", "crash.txt", "world.json", "timing.json", "truth.tum",
+                 "estimate.tum", "telemetry.csv", "digests.csv"});
 }
 
 /// All that a run is made of besides the simulation itself.
