@@ -192,7 +192,7 @@ void Measure(const std::string& name, const worlds::World& world, Figures& figur
 
 void Run_render(Figures& figures) {
   for (const auto& [name, world] : {std::pair{"yard", Yard()},
-                                    {"courtyard", worlds::MakeCourtyard({}, 1)},
+                                    {"courtyard", worlds::MakeWorld({}, 1)},
                                     {"synthetic_hall", SyntheticHall(1)},
                                     {"synthetic_forest", SyntheticForest(1)}}) {
     figures.Add(std::string("render/") + name + "/world/triangles_1", TrianglesOf(world));

@@ -18,12 +18,7 @@ Overloaded(Ts...) -> Overloaded<Ts...>;
 
 std::shared_ptr<const worlds::World> MakeWorld(const WorldConfig& config, std::uint64_t seed) {
   return std::make_shared<const worlds::World>(
-      std::visit(Overloaded{
-                     [&](const worlds::OpenGroundConfig& c) { return worlds::MakeOpenGround(c, seed); },
-                     [&](const worlds::CourtyardConfig& c) { return worlds::MakeCourtyard(c, seed); },
-                     [&](const worlds::SceneConfig& c) { return worlds::MakeScene(c, seed); },
-                 },
-                 config));
+      std::visit([&](const auto& c) { return worlds::MakeWorld(c, seed); }, config));
 }
 
 std::unique_ptr<vehicles::VehicleModel> MakeVehicle(const VehicleConfig& config, const std::string& name) {

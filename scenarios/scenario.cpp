@@ -15,8 +15,14 @@ fs::path SourceTree() { return ALULA_SOURCE_DIR; }
 
 constexpr const char* kKinds[] = {"scenario", "vehicle", "world"};  // in the order of Catalogs()
 
+/// The words for the alternatives, as their structs say them.
+template <typename... Ts>
+std::vector<std::string_view> TypesOf(const std::variant<Ts...>&) {
+  return {Ts::kType...};
+}
+
 void DescribeWorld(base::Description& d, WorldConfig& c) {
-  d.OneOf("world", c, {.meaning = "where it happens", .choices = {"open_ground", "courtyard", "scene"}});
+  d.OneOf("world", c, {.meaning = "where it happens", .choices = TypesOf(c)});
 }
 void DescribeVehicle(base::Description& d, VehicleConfig& c) {
   d.OneOf("vehicle", c, {.meaning = "what moves", .choices = {"quadrotor", "prescribed"}});

@@ -209,7 +209,7 @@ Transform DrawStart(const CourtyardConfig& config, const CoursePlan& course, std
 
 }  // namespace
 
-World MakeCourtyard(const CourtyardConfig& config, std::uint64_t seed) {
+World MakeWorld(const CourtyardConfig& config, std::uint64_t seed) {
   const CoursePlan course = DrawCourse(config, seed);
   World world;
   world.name = "courtyard";

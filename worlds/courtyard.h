@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/describe.h"
@@ -13,6 +14,8 @@ namespace alula::worlds {
 /// A walled courtyard with a landing pad and a loop of five gates. The ranges are those from which the seed draws;
 /// a key given as a distribution moves the range itself.
 struct CourtyardConfig {
+  static constexpr std::string_view kType = "courtyard";
+
   double opening_min = 1.2;           // m; 250 mm quadrotor plus tracking and mapping error on both sides
   double opening_max = 1.6;           // m
   double frame_min = 0.12;            // m; thinner bars fall between the voxels of a 0.1 m map
@@ -55,6 +58,6 @@ void Describe(base::Description& d, CourtyardConfig& c);
 /// the first and the last leg are free; a column above the pad is free; ≤ 30 000 triangles.
 /// Objects of gate i are named "gate<i>/left", "/right", "/top", "/bottom", "/post", "/foot".
 /// Throws base::InputError when the prop cannot be read.
-World MakeCourtyard(const CourtyardConfig& config, std::uint64_t seed);
+World MakeWorld(const CourtyardConfig& config, std::uint64_t seed);
 
 }  // namespace alula::worlds

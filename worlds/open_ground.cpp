@@ -44,7 +44,7 @@ void Describe(base::Description& d, OpenGroundConfig& c) {
   });
 }
 
-World MakeOpenGround(const OpenGroundConfig& config, std::uint64_t seed) {
+World MakeWorld(const OpenGroundConfig& config, std::uint64_t seed) {
   World world;
   world.name = "open_ground";
   const int ground = AddMaterial(world, "ground", Pattern::kGravel, {{0.20F, 0.18F, 0.15F}, {0.88F, 0.84F, 0.76F}},

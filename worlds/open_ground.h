@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 #include "base/describe.h"
 #include "worlds/world.h"
@@ -9,6 +10,8 @@ namespace alula::worlds {
 
 /// Flat textured ground with a pad in the middle and a few blocks far away: for hovering and for physics.
 struct OpenGroundConfig {
+  static constexpr std::string_view kType = "open_ground";
+
   double size = 60.0;          // m, side of the square of ground
   double pad_radius = 1.2;     // m
   double target_height = 1.5;  // m above the pad
@@ -24,6 +27,6 @@ struct OpenGroundConfig {
 void Describe(base::Description& d, OpenGroundConfig& c);
 
 /// Streams "world/blocks" and "world/texture/…" of `seed`. No gates; the target is above the pad.
-World MakeOpenGround(const OpenGroundConfig& config, std::uint64_t seed);
+World MakeWorld(const OpenGroundConfig& config, std::uint64_t seed);
 
 }  // namespace alula::worlds

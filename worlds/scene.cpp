@@ -182,6 +182,6 @@ class SceneBuilder {
 
 }  // namespace
 
-World MakeScene(const SceneConfig& config, std::uint64_t seed) { return SceneBuilder(config, seed).Build(); }
+World MakeWorld(const SceneConfig& config, std::uint64_t seed) { return SceneBuilder(config, seed).Build(); }
 
 }  // namespace alula::worlds

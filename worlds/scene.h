@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -26,7 +27,15 @@ struct SceneMaterial {
     kBark,
     kFoliage,
     kSignal,
-    kPad
+    kPad,
+    kGrass,
+    kAsphalt,
+    kLitter,
+    kSoil,
+    kTiles,
+    kMetal,
+    kCarpet,
+    kPaint
   };
 
   base::Vec3 colour = base::Vec3::Ones();  // red, green, blue from 0 to 1
@@ -89,6 +98,8 @@ struct SceneGround {
 
 /// A world that its user describes thing by thing.
 struct SceneConfig {
+  static constexpr std::string_view kType = "scene";
+
   SceneGround ground;
   std::vector<SceneObject> objects;
   std::vector<SceneGate> gates;                  // in order of passage
@@ -114,6 +125,6 @@ void Describe(base::Description& d, SceneConfig& c);
 /// The scene with what its files hold; each file is read once, however many objects name it. Only our patterns draw
 /// from `seed` (streams "world/texture/…"). Throws base::InputError, with the place of the key, for a mesh or texture
 /// that cannot be used and for a name that stands twice.
-World MakeScene(const SceneConfig& config, std::uint64_t seed);
+World MakeWorld(const SceneConfig& config, std::uint64_t seed);
 
 }  // namespace alula::worlds

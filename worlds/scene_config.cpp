@@ -25,8 +25,9 @@ void Describe(base::Description& d, SceneMaterial& c) {
   d.Field("colour", c.colour, {.meaning = "red, green and blue, times the picture", .min = 0.0, .max = 1.0});
   d.Field("pattern", c.pattern,
           {.meaning = "a picture of our own",
-           .choices = {"plain", "brick", "plaster", "concrete", "rubble", "paving", "gravel", "wood", "bark", "foliage",
-                       "signal", "pad"}});
+           .choices = {"plain",  "brick", "plaster", "concrete", "rubble", "paving", "gravel",
+                       "wood",   "bark",  "foliage", "signal",   "pad",    "grass",  "asphalt",
+                       "litter", "soil",  "tiles",   "metal",    "carpet", "paint"}});
   d.Field("texture", c.texture,
           {.meaning = "a PNG file in place of the pattern", .is_path = true, .origin = &c.texture_origin});
   Length(d, "texture_scale", c.texture_scale, "what one period of the picture covers");

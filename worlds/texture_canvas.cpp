@@ -108,13 +108,15 @@ Canvas PinkNoise(int size, base::RandomStream& random) {
 }
 
 void PaintLeaves(Canvas& canvas, const LeavesConfig& config, base::RandomStream& random) {
+  constexpr double kUsualWidth = 0.675;  // mean width over length for which the mean area is 2 r²
   const double low = std::max(config.radius_min * canvas.size, 0.8);
   const double high = std::max(config.radius_max * canvas.size, 1.01 * low);
   const double area = static_cast<double>(canvas.tone.size());
   for (double painted = 0.0; painted < config.coverage * area;) {
     const double u = random.Uniform();
     const double r = 1.0 / std::sqrt((1.0 - u) / (low * low) + u / (high * high));  // density ∝ r⁻³ on [low, high]
-    painted += 2.0 * r * r;                                                         // mean area of the shapes, about
+    // Mean area of the shapes, about.
+    painted += 2.0 * r * r * (0.5 * (config.narrowest + config.widest) / kUsualWidth);
     const std::uint64_t form = random.Index(4);
     const double angle = random.Uniform(0.0, 2.0 * std::numbers::pi);
     Leaf leaf{};
@@ -123,7 +125,7 @@ void PaintLeaves(Canvas& canvas, const LeavesConfig& config, base::RandomStream&
     leaf.radius = r;
     leaf.a = static_cast<float>(std::cos(angle) / r);
     leaf.b = static_cast<float>(std::sin(angle) / r);
-    leaf.stretch = static_cast<float>(1.0 / random.Uniform(0.35, 1.0));
+    leaf.stretch = static_cast<float>(1.0 / random.Uniform(config.narrowest, config.widest));
     leaf.tone = static_cast<float>(random.Uniform(config.tone_min, config.tone_max));
     leaf.opacity = config.opacity;
     if (form == 0) PaintLeaf<Disc>(canvas, leaf);

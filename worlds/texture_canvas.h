@@ -35,6 +35,8 @@ struct LeavesConfig {
   float tone_min = 0.0F;
   float tone_max = 1.0F;
   float opacity = 1.0F;
+  double narrowest = 0.35;  // width over length, drawn between these: blades of grass and scratches have little
+  double widest = 1.0;
 };
 void PaintLeaves(Canvas& canvas, const LeavesConfig& config, base::RandomStream& random);
 

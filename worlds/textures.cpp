@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <string>
 
@@ -61,6 +62,31 @@ void PaintTarget(Canvas& canvas) {
   }
 }
 
+/// Square tiles of slightly different tones with joints between them.
+void PaintTiles(Canvas& canvas, int columns, float joint_tone, RandomStream& random) {
+  std::vector<float> tones(static_cast<std::size_t>(columns) * static_cast<std::size_t>(columns));
+  for (float& t : tones) t = static_cast<float>(random.Uniform(0.45, 0.75));
+  const int joint = std::max(1, canvas.size / 340);
+  for (int y = 0; y < canvas.size; ++y) {
+    for (int x = 0; x < canvas.size; ++x) {
+      const int column = x * columns / canvas.size;
+      const int row = y * columns / canvas.size;
+      const bool in_joint = x - column * canvas.size / columns < joint || y - row * canvas.size / columns < joint;
+      canvas.At(x, y) = in_joint ? joint_tone : tones[static_cast<std::size_t>(row * columns + column)];
+    }
+  }
+}
+
+/// Dark lines along the borders of a few large cells.
+void PaintCracks(Canvas& canvas, int columns, float tone, RandomStream& random) {
+  const Cells cells = MakeCells(canvas.size, columns, columns, 0.95, random);
+  const Canvas gaps = PinkNoise(canvas.size, random);
+  const float width = std::max(1.5F * static_cast<float>(canvas.size) / 1024.0F, 0.5F);
+  for (std::size_t i = 0; i < canvas.tone.size(); ++i) {
+    if (cells.edge[i] < width && gaps.tone[i] > -0.2F) canvas.tone[i] = tone;
+  }
+}
+
 void AddNoise(Canvas& canvas, float amplitude, RandomStream& random) {
   const Canvas noise = PinkNoise(canvas.size, random);
   for (std::size_t i = 0; i < canvas.tone.size(); ++i) canvas.tone[i] += amplitude * noise.tone[i];
@@ -74,8 +100,8 @@ void PaintFallenCoat(Canvas& canvas, float threshold, float change, RandomStream
   }
 }
 
-/// Tones of mean 0.5 and deviation 0.27: all the contrast that a picture can hold with little of it clipped.
-void Stretch(Canvas& canvas) {
+/// Tones of mean 0.5 and this deviation; 0.27 is all the contrast that a picture can hold with little of it clipped.
+void Stretch(Canvas& canvas, double deviation) {
   double sum = 0.0;
   double squares = 0.0;
   for (const float t : canvas.tone) {
@@ -84,74 +110,146 @@ void Stretch(Canvas& canvas) {
   }
   const double count = static_cast<double>(canvas.tone.size());
   const double mean = sum / count;
-  const auto gain = static_cast<float>(0.27 / std::sqrt(std::max(squares / count - mean * mean, 1e-6)));
+  const auto gain = static_cast<float>(deviation / std::sqrt(std::max(squares / count - mean * mean, 1e-6)));
   for (float& t : canvas.tone) t = 0.5F + gain * (t - static_cast<float>(mean));
 }
 
-void Paint(Canvas& canvas, Pattern pattern, RandomStream& random) {
-  switch (pattern) {
-    case Pattern::kBrick:
+/// What a pattern is made of: its shapes, and the noise over them.
+struct Recipe {
+  void (*paint)(Canvas&, RandomStream&);
+  float noise = 0.12F;
+  bool stretch = true;  // to the contrast asked for; a pattern of given tones keeps them
+};
+
+/// In the order of Pattern.
+constexpr Recipe kRecipes[] = {
+    {[](Canvas& canvas, RandomStream& random) {  // brick
       PaintCourses(canvas, 22, 0.05, 0.13, 0.95F, random);
       PaintLeaves(canvas, {.coverage = 0.7, .opacity = 0.5F}, random);
-      break;
-    case Pattern::kPlaster:
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // plaster
       PaintLeaves(canvas, {.coverage = 1.6, .radius_max = 0.16, .opacity = 0.6F}, random);
       PaintFallenCoat(canvas, 0.9F, -0.35F, random);
-      break;
-    case Pattern::kConcrete:
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // concrete
       PaintCourses(canvas, 5, 0.15, 0.4, 0.1F, random);
       PaintLeaves(canvas, {.coverage = 1.2, .opacity = 0.6F}, random);
       PaintFallenCoat(canvas, 1.3F, 0.3F, random);
-      break;
-    case Pattern::kRubble:
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // rubble
       PaintCells(canvas, 18, 22, 0.95, 0.02F, 4.0F, random);
       PaintLeaves(canvas, {.coverage = 0.6, .radius_max = 0.05, .opacity = 0.5F}, random);
-      break;
-    case Pattern::kPaving:
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // paving
       PaintCells(canvas, 20, 20, 0.7, 0.05F, 3.0F, random);
       PaintLeaves(canvas, {.coverage = 0.8, .opacity = 0.5F}, random);
-      break;
-    case Pattern::kGravel:
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // gravel
       PaintLeaves(canvas, {.coverage = 2.5, .radius_max = 0.04}, random);
       PaintLeaves(canvas, {.coverage = 0.5, .radius_min = 0.03, .radius_max = 0.15, .opacity = 0.45F}, random);
-      break;
-    case Pattern::kWood:
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // wood
       PaintCourses(canvas, 9, 0.3, 0.7, 0.0F, random);
       PaintLeaves(canvas, {.coverage = 0.9, .radius_max = 0.08, .opacity = 0.55F}, random);
-      break;
-    case Pattern::kBark:
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // bark
       PaintCells(canvas, 26, 9, 0.95, 0.0F, 5.0F, random);
       PaintLeaves(canvas, {.coverage = 0.6, .radius_max = 0.05, .opacity = 0.6F}, random);
-      break;
-    case Pattern::kFoliage:
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // foliage
       PaintLeaves(canvas, {.coverage = 3.0, .radius_min = 3.0 / 512, .radius_max = 0.07}, random);
-      break;
-    case Pattern::kSignal:
-      PaintLeaves(canvas, {.coverage = 3.0, .radius_min = 4.0 / 512, .radius_max = 0.14}, random);
-      for (float& t : canvas.tone)
-        t = t < 0.5F ? 0.6F * t * t : 1.0F - 0.6F * (1.0F - t) * (1.0F - t);  // black or white
-      break;
-    case Pattern::kPad:
-      PaintTarget(canvas);
-      PaintLeaves(canvas, {.coverage = 0.6, .radius_max = 0.06, .opacity = 0.6F}, random);
-      break;
-  }
-  AddNoise(canvas, pattern == Pattern::kSignal ? 0.06F : 0.12F, random);
-}
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // signal: black or white
+       PaintLeaves(canvas, {.coverage = 3.0, .radius_min = 4.0 / 512, .radius_max = 0.14}, random);
+       for (float& t : canvas.tone) t = t < 0.5F ? 0.6F * t * t : 1.0F - 0.6F * (1.0F - t) * (1.0F - t);
+     },
+     0.06F, false},
+    {[](Canvas& canvas, RandomStream& random) {  // pad
+       PaintTarget(canvas);
+       PaintLeaves(canvas, {.coverage = 0.6, .radius_max = 0.06, .opacity = 0.6F}, random);
+     },
+     0.12F, false},
+    {[](Canvas& canvas, RandomStream& random) {  // grass: blades over patches of moss and dry stalks
+      PaintLeaves(canvas, {.coverage = 0.8, .radius_min = 0.03, .radius_max = 0.2, .opacity = 0.35F}, random);
+      PaintLeaves(canvas,
+                  {.coverage = 5.0,
+                   .radius_min = 4.0 / 512,
+                   .radius_max = 0.03,
+                   .opacity = 0.7F,
+                   .narrowest = 0.06,
+                   .widest = 0.18},
+                  random);
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // asphalt: grit, worn patches, cracks
+      PaintLeaves(canvas, {.coverage = 2.0, .radius_min = 1.2 / 1024, .radius_max = 0.006}, random);
+      PaintLeaves(canvas, {.coverage = 0.6, .radius_min = 0.05, .radius_max = 0.25, .opacity = 0.2F}, random);
+      PaintCracks(canvas, 5, 0.05F, random);
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // litter: fallen leaves and twigs
+      PaintLeaves(canvas, {.coverage = 3.0, .radius_min = 0.006, .radius_max = 0.03, .narrowest = 0.4, .widest = 0.8},
+                  random);
+      PaintLeaves(canvas,
+                  {.coverage = 0.15,
+                   .radius_min = 0.02,
+                   .radius_max = 0.08,
+                   .tone_max = 0.3F,
+                   .narrowest = 0.03,
+                   .widest = 0.06},
+                  random);
+    }},
+    {[](Canvas& canvas, RandomStream& random) {  // soil: clods and pebbles
+       PaintLeaves(canvas, {.coverage = 1.0, .radius_max = 0.12, .opacity = 0.3F}, random);
+       PaintLeaves(canvas, {.coverage = 0.25, .radius_min = 2.0 / 1024, .radius_max = 0.015, .opacity = 0.8F}, random);
+     },
+     0.2F},
+    {[](Canvas& canvas, RandomStream& random) {  // tiles
+       PaintTiles(canvas, 8, 0.15F, random);
+       PaintLeaves(canvas, {.coverage = 0.5, .radius_max = 0.02, .opacity = 0.15F}, random);
+     },
+     0.06F},
+    {[](Canvas& canvas, RandomStream& random) {  // metal: sheets with seams, scratches and stains
+       PaintCourses(canvas, 4, 0.25, 0.5, 0.05F, random);
+       PaintLeaves(canvas,
+                   {.coverage = 0.5,
+                    .radius_min = 0.01,
+                    .radius_max = 0.1,
+                    .opacity = 0.35F,
+                    .narrowest = 0.02,
+                    .widest = 0.06},
+                   random);
+       PaintLeaves(canvas, {.coverage = 0.5, .radius_min = 0.02, .radius_max = 0.2, .opacity = 0.2F}, random);
+     },
+     0.06F},
+    {[](Canvas& canvas, RandomStream& random) {  // carpet: short pile, worn paths
+       PaintLeaves(canvas, {.coverage = 2.0, .radius_min = 1.5 / 1024, .radius_max = 0.008, .opacity = 0.8F}, random);
+       PaintLeaves(canvas, {.coverage = 0.5, .radius_min = 0.1, .radius_max = 0.3, .opacity = 0.2F}, random);
+     },
+     0.10F},
+    {[](Canvas& canvas, RandomStream& random) {  // paint: a white wall, all but bare
+       for (float& t : canvas.tone) t = 0.9F;
+       PaintLeaves(canvas, {.coverage = 0.3, .radius_min = 0.05, .radius_max = 0.3, .tone_min = 0.8F, .opacity = 0.06F},
+                   random);
+     },
+     0.012F, false},
+};
+static_assert(std::size(kRecipes) == static_cast<std::size_t>(Pattern::kPaint) + 1);
 
-}  // namespace
-
-std::shared_ptr<const geometry::Texture> MakeTexture(Pattern pattern, const Palette& palette, int size,
-                                                     std::uint64_t seed, std::string_view name) {
+Canvas Paint(Pattern pattern, int size, double contrast, RandomStream& random) {
   if (size < 16 || (size & (size - 1)) != 0) {
     throw base::InputError("texture size " + std::to_string(size) + " must be a power of two of at least 16");
   }
-  RandomStream random(seed, "world/texture/" + std::string(name));
+  const Recipe& recipe = kRecipes[static_cast<std::size_t>(pattern)];
   Canvas canvas(size);
-  Paint(canvas, pattern, random);
-  if (pattern != Pattern::kSignal && pattern != Pattern::kPad) Stretch(canvas);
-  Canvas warmth = PinkNoise(size / 4, random);  // colours vary from reddish to bluish, whatever the tone
+  recipe.paint(canvas, random);
+  AddNoise(canvas, recipe.noise, random);
+  if (recipe.stretch) Stretch(canvas, contrast);
+  return canvas;
+}
 
+/// Tones as colours; these vary from reddish to bluish, whatever the tone.
+std::shared_ptr<geometry::Texture> Coloured(const Canvas& canvas, const Palette& palette, RandomStream& random) {
+  const int size = canvas.size;
+  const Canvas warmth = PinkNoise(size / 4, random);
   auto texture = std::make_shared<geometry::Texture>();
   texture->width = texture->height = size;
   texture->rgb.resize(3 * canvas.tone.size());
@@ -160,8 +258,8 @@ std::shared_ptr<const geometry::Texture> MakeTexture(Pattern pattern, const Pale
     const float range = 255.0F * palette.light[c] - dark;
     const float shift = 0.05F * static_cast<float>(1 - c);
     for (int y = 0; y < size; ++y) {
-      const float* tones = &canvas.At(0, y);
-      const float* warm = &warmth.At(0, y / 4);
+      const float* tones = canvas.tone.data() + canvas.Index(0, y);
+      const float* warm = warmth.tone.data() + warmth.Index(0, y / 4);
       std::uint8_t* out = texture->rgb.data() + 3 * canvas.Index(0, y) + c;
       for (int x = 0; x < size; ++x) {
         const float t = std::clamp(tones[x], 0.0F, 1.0F);
@@ -171,6 +269,49 @@ std::shared_ptr<const geometry::Texture> MakeTexture(Pattern pattern, const Pale
     }
   }
   return texture;
+}
+
+/// Takes over `inner` away from the lines u = ½ and v = ½, along which the canvas stays as it is; the border between
+/// them wanders, so that it is no line itself.
+void FillBetweenRims(Canvas& canvas, const Canvas& inner, RandomStream& random) {
+  constexpr float kRim = 0.07F;     // mean distance of the border from the lines, of the canvas's side
+  constexpr float kWander = 0.02F;  // its deviation
+  const Canvas wander = PinkNoise(canvas.size, random);
+  const float scale = 1.0F / static_cast<float>(canvas.size);
+  for (int y = 0; y < canvas.size; ++y) {
+    for (int x = 0; x < canvas.size; ++x) {
+      const float off_u = std::abs(static_cast<float>(x) * scale - 0.5F);
+      const float off_v = std::abs(static_cast<float>(y) * scale - 0.5F);
+      const float border = kRim + kWander * std::clamp(wander.At(x, y), -2.5F, 2.5F);
+      if (std::min(off_u, off_v) > border) canvas.At(x, y) = inner.At(x, y);
+    }
+  }
+}
+
+}  // namespace
+
+std::shared_ptr<const geometry::Texture> MakeTexture(Pattern pattern, const Palette& palette, int size,
+                                                     std::uint64_t seed, std::string_view name, double contrast) {
+  RandomStream random(seed, "world/texture/" + std::string(name));
+  const Canvas canvas = Paint(pattern, size, contrast, random);
+  return Coloured(canvas, palette, random);
+}
+
+std::vector<std::shared_ptr<const geometry::Texture>> MakeTextureVariants(Pattern pattern, const Palette& palette,
+                                                                          int size, std::uint64_t seed,
+                                                                          std::string_view name, int count,
+                                                                          double contrast) {
+  RandomStream rim_stream(seed, "world/texture/" + std::string(name));
+  const Canvas rim = Paint(pattern, size, contrast, rim_stream);
+  std::vector<std::shared_ptr<const geometry::Texture>> variants;
+  for (int i = 0; i < count; ++i) {
+    RandomStream random(seed, "world/texture/" + std::string(name) + "/" + std::to_string(i));
+    Canvas canvas = rim;
+    FillBetweenRims(canvas, Paint(pattern, size, contrast, random), random);
+    RandomStream tint(seed, "world/texture/" + std::string(name) + "/tint");  // one for all: it crosses the rims
+    variants.push_back(Coloured(canvas, palette, tint));
+  }
+  return variants;
 }
 
 }  // namespace alula::worlds

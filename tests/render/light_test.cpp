@@ -210,8 +210,8 @@ std::vector<test::Shot> TorchShots(std::uint64_t seed) {
 }
 
 TEST(LightOverMakers, NightAndFogAgree) {
-  test::ExpectAgreement(Night(worlds::MakeCourtyard(kSmall, 5)), {}, TorchShots(3), 0.5);
-  test::ExpectAgreement(InFog(worlds::MakeCourtyard(kSmall, 6)), {}, test::ShotsAbout(4, 3, {9, 7, 3}), 0.5);
+  test::ExpectAgreement(Night(worlds::MakeWorld(kSmall, 5)), {}, TorchShots(3), 0.5);
+  test::ExpectAgreement(InFog(worlds::MakeWorld(kSmall, 6)), {}, test::ShotsAbout(4, 3, {9, 7, 3}), 0.5);
   test::ExpectAgreement(InFog(Night(test::Clutter(8, 100))), {}, TorchShots(5), 0.5);
 }
 

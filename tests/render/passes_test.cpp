@@ -96,7 +96,7 @@ TEST_P(Passes, SurfaceAndDepthSeeTheSamePixels) {
 }
 
 TEST(Surfaces, MakersAgreeAndTheScalarTwinIsEqual) {
-  const worlds::World world = worlds::MakeCourtyard({.texture_size = 64}, 4);
+  const worlds::World world = worlds::MakeWorld({.texture_size = 64}, 4);
   const auto gl = MakeRenderer("osmesa", world, {});
   const auto own = MakeRenderer("raster", world, {});
   raster::RasterRenderer twin(raster::ScalarKernels(), world, {});

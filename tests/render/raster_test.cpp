@@ -28,12 +28,12 @@ std::vector<test::Shot> Shots(std::uint64_t seed, int count, const base::Vec3& r
 }
 
 TEST(Raster, ScalarAndAvx2KernelsGiveTheSameBits) {
-  test::ExpectTwins(worlds::MakeCourtyard({}, 3), Movers(), Shots(1, 8, {12, 8, 3}));
+  test::ExpectTwins(worlds::MakeWorld({}, 3), Movers(), Shots(1, 8, {12, 8, 3}));
   test::ExpectTwins(test::Clutter(3, 100), Movers(), Shots(2, 4, {9, 9, 3}));
 }
 
 TEST(Raster, DrawsWhatGlDraws) {
-  test::ExpectAgreement(worlds::MakeCourtyard({}, 5), Movers(), Shots(3, 6, {12, 8, 3}), 0.5);
+  test::ExpectAgreement(worlds::MakeWorld({}, 5), Movers(), Shots(3, 6, {12, 8, 3}), 0.5);
   test::ExpectAgreement(test::Clutter(8, 100), Movers(), Shots(4, 4, {9, 9, 3}), 0.5);
 }
 

@@ -31,7 +31,7 @@ const bool kEnvironment = [] {
 
 /// Bullet and the renderer are built from one geometry: whatever a pixel sees, a ray hits at the same depth.
 TEST(Cameras, RenderedDepthIsWhereBulletsRaysEnd) {
-  const worlds::World world = worlds::MakeCourtyard({}, 3);
+  const worlds::World world = worlds::MakeWorld({}, 3);
   vehicles::VehicleBody body = testing::PlateOnLegs();
   body.prescribed = true;
   const PhysicsWorld physics(world, body, testing::At({0, 0, 50}));
@@ -434,7 +434,7 @@ class Shutter : public ::testing::TestWithParam<bool> {};  // with rolling rows,
 /// The instants and bands that PlanExposure takes give the picture that 64 instants a band, and a band a row or two,
 /// give. The bound is what rounding a mean to grey levels leaves (0.25 of a level in the mean), doubled.
 TEST_P(Shutter, ShowsWhatSixtyFourSubFramesShow) {
-  const worlds::World world = worlds::MakeCourtyard({}, 3);
+  const worlds::World world = worlds::MakeWorld({}, 3);
   const auto renderer = render::MakeRenderer("raster", world, {});
   CameraConfig config;
   config.noise = {0.0, 0.0};

@@ -66,7 +66,7 @@ double RoomAtGate(const Gate& gate, const Object& object, const std::vector<Vec3
 TEST(Courtyard, RoomThatMustBeFreeIsFree) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     SCOPED_TRACE(seed);
-    const World world = MakeCourtyard(Small(), seed);
+    const World world = MakeWorld(Small(), seed);
     ASSERT_EQ(world.gates.size(), 5U);
     const Vec2 pad = world.X_WB_start.p.head<2>();
     for (const Object& object : world.objects) {
@@ -163,7 +163,7 @@ TEST(Courtyard, EveryLegCanBeFlownWithRoomOnBothSides) {
   int legs = 0;
   for (std::uint64_t seed = 1; seed <= 200; seed += 5) {
     SCOPED_TRACE(seed);
-    const World world = MakeCourtyard(Small(), seed);
+    const World world = MakeWorld(Small(), seed);
     const Grid grid(world, 0.6);
     Vec2 at = world.X_WB_start.p.head<2>();
     for (std::size_t i = 0; i <= world.gates.size(); ++i) {
@@ -185,7 +185,7 @@ TEST(Courtyard, StraightLinesBetweenGatesAreSometimesBlocked) {
   int blocked = 0;
   int legs = 0;
   for (std::uint64_t seed = 1; seed <= 60; ++seed) {
-    const World world = MakeCourtyard(Small(), seed);
+    const World world = MakeWorld(Small(), seed);
     for (std::size_t i = 0; i + 1 < world.gates.size(); ++i) {
       const Vec3 a = world.gates[i].X_WG * Vec3(1.0, 0.0, 0.0);
       const Vec3 b = world.gates[i + 1].X_WG * Vec3(-1.0, 0.0, 0.0);
@@ -206,7 +206,7 @@ TEST(Courtyard, StraightLinesBetweenGatesAreSometimesBlocked) {
 TEST(Courtyard, HasFewTriangles) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     std::size_t triangles = 0;
-    for (const Object& object : MakeCourtyard(Small(), seed).objects) {
+    for (const Object& object : MakeWorld(Small(), seed).objects) {
       triangles += geometry::Tessellate(object.shape, object.texture_scale).triangles.size();
     }
     EXPECT_LE(triangles, 30'000U) << seed;
@@ -215,7 +215,7 @@ TEST(Courtyard, HasFewTriangles) {
 
 TEST(Courtyard, NamesAndMaterialsAreSound) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const World world = MakeCourtyard(Small(), seed);
+    const World world = MakeWorld(Small(), seed);
     std::set<std::string> names;
     for (const Object& object : world.objects) {
       EXPECT_TRUE(names.insert(object.name).second) << object.name;
@@ -229,7 +229,7 @@ TEST(Courtyard, NamesAndMaterialsAreSound) {
 
 TEST(Courtyard, StartLooksTowardTheFirstGate) {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const World world = MakeCourtyard(Small(), seed);
+    const World world = MakeWorld(Small(), seed);
     const Vec3 d = world.gates.front().X_WG.p - world.X_WB_start.p;
     EXPECT_LE(std::abs(base::WrapAngle(std::atan2(d.y(), d.x()) - base::Yaw(world.X_WB_start.q))), 30.0 / 57.2957795);
     EXPECT_LE((world.target - world.X_WB_start.p).head<2>().norm(), 4.2);
@@ -239,7 +239,7 @@ TEST(Courtyard, StartLooksTowardTheFirstGate) {
 TEST(Courtyard, WindAndSunStayInTheirRanges) {
   double strongest = 0.0;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const World world = MakeCourtyard(Small(), seed);
+    const World world = MakeWorld(Small(), seed);
     strongest = std::max(strongest, world.wind.mean_W.norm());
     EXPECT_LE(world.wind.mean_W.norm(), 3.0);
     EXPECT_LE(world.wind.gust_sigma, 0.3 * world.wind.mean_W.norm() + 1e-12);
@@ -258,17 +258,17 @@ std::uint64_t Digest(const World& world) {
 TEST(Courtyard, SameSeedSameWorldAndEverySeedAnotherOne) {
   std::set<std::uint64_t> digests;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
-    const std::uint64_t digest = Digest(MakeCourtyard(Small(), seed));
+    const std::uint64_t digest = Digest(MakeWorld(Small(), seed));
     EXPECT_TRUE(digests.insert(digest).second) << seed;
     if (seed % 20 == 0) {
-      EXPECT_EQ(digest, Digest(MakeCourtyard(Small(), seed))) << seed;
+      EXPECT_EQ(digest, Digest(MakeWorld(Small(), seed))) << seed;
     }
   }
 }
 
 TEST(Courtyard, TextureSizeChangesNothingElse) {
-  World small = MakeCourtyard(Small(), 5);
-  World large = MakeCourtyard(CourtyardConfig{}, 5);
+  World small = MakeWorld(Small(), 5);
+  World large = MakeWorld(CourtyardConfig{}, 5);
   for (World* world : {&small, &large}) {
     for (auto& material : world->materials) material.texture.reset();
   }
@@ -279,7 +279,7 @@ TEST(Courtyard, AMissingPropIsNamed) {
   CourtyardConfig config = Small();
   config.prop = "nothing.obj";
   try {
-    MakeCourtyard(config, 1);
+    MakeWorld(config, 1);
     FAIL();
   } catch (const base::InputError& error) {
     EXPECT_NE(std::string(error.what()).find("worlds/assets/nothing.obj: there is no such mesh file"),
@@ -288,7 +288,7 @@ TEST(Courtyard, AMissingPropIsNamed) {
 }
 
 TEST(Courtyard, EveryObjectSaysWhatItIs) {
-  const World world = MakeCourtyard(Small(), 2);
+  const World world = MakeWorld(Small(), 2);
   const auto expected = [](const std::string& name) {
     const std::pair<const char*, SemanticClass> beginnings[] = {
         {"ground/", SemanticClass::kGround}, {"wall/", SemanticClass::kWall}, {"gate", SemanticClass::kGate},
@@ -319,7 +319,7 @@ TEST(Courtyard, NightFogAndLampsAreKeys) {
       " lamps: [{position: [1 m, 2 m, 3 m], intensity: 30, range: 12 m}, {position: [4 m, 0 m, 3 m], cone: 40 deg, "
       "direction: [0, "
       "0, -1]}]}");
-  const World night = MakeCourtyard(config, 2);
+  const World night = MakeWorld(config, 2);
   EXPECT_EQ(night.light.sun, 0.0F);
   EXPECT_FLOAT_EQ(night.light.sky_brightness, 0.1F);
   ASSERT_TRUE(night.light.fog.has_value());
@@ -328,7 +328,7 @@ TEST(Courtyard, NightFogAndLampsAreKeys) {
   EXPECT_EQ(night.light.lamps[0].position, Vec3(1, 2, 3));
   EXPECT_NEAR(night.light.lamps[1].cone, 0.698132, 1e-6);
   // They are part of what the world is; the rest of it is the same as by day.
-  const World day = MakeCourtyard(Small(), 2);
+  const World day = MakeWorld(Small(), 2);
   EXPECT_NE(Digest(night), Digest(day));
   World again = night;
   again.light = day.light;

@@ -14,7 +14,7 @@ OpenGroundConfig Small() {
 }
 
 TEST(OpenGround, PadStandsInTheMiddleAndBlocksFarAway) {
-  const World world = MakeOpenGround(Small(), 1);
+  const World world = MakeWorld(Small(), 1);
   EXPECT_EQ(world.pad_object, "pad");
   EXPECT_EQ(world.objects.size(), 2U + 10U);
   EXPECT_TRUE(world.gates.empty());
@@ -32,9 +32,9 @@ TEST(OpenGround, SameSeedSameWorld) {
   base::RollingHash a;
   base::RollingHash b;
   base::RollingHash c;
-  AddTo(a, MakeOpenGround(Small(), 1));
-  AddTo(b, MakeOpenGround(Small(), 1));
-  AddTo(c, MakeOpenGround(Small(), 2));
+  AddTo(a, MakeWorld(Small(), 1));
+  AddTo(b, MakeWorld(Small(), 1));
+  AddTo(c, MakeWorld(Small(), 2));
   EXPECT_EQ(a.value(), b.value());
   EXPECT_NE(a.value(), c.value());
 }

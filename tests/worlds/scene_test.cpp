@@ -48,7 +48,7 @@ class SceneTest : public ::testing::Test {
     try {
       SceneConfig config = Read(yaml);
       config.texture_size = 32;  // quick
-      MakeScene(config, 1);
+      MakeWorld(config, 1);
     } catch (const base::InputError& error) {
       std::string text = error.what();
       for (std::size_t at = 0; (at = text.find(folder_.string() + "/")) != std::string::npos;) {
@@ -86,7 +86,7 @@ sun_elevation: 30 deg
 )";
 
 TEST_F(SceneTest, IsBuiltAsDescribed) {
-  const World world = MakeScene(Read(kScene), 1);
+  const World world = MakeWorld(Read(kScene), 1);
   ASSERT_EQ(world.objects.size(), 11U);  // ground, three things, six parts of the gate, pad
   EXPECT_EQ(std::get<geometry::Box>(world.objects[0].shape).half_extents, base::Vec3(10.0, 10.0, 0.25));
   const Object& ramp = world.objects[1];
@@ -114,7 +114,7 @@ TEST_F(SceneTest, IsBuiltAsDescribed) {
 }
 
 TEST_F(SceneTest, EachFileIsReadOnceAndEachMaterialMadeOnce) {
-  const World world = MakeScene(Read(kScene), 1);
+  const World world = MakeWorld(Read(kScene), 1);
   EXPECT_EQ(world.objects[1].material, world.objects[2].material);
   EXPECT_EQ(world.materials.size(), 5U);  // ground, tiles, brick, the gate's signal, pad
   const auto& tiles = world.materials[static_cast<std::size_t>(world.objects[1].material)];
@@ -129,7 +129,7 @@ TEST_F(SceneTest, ADumpReadsBackFromAnotherFolder) {
   EXPECT_NE(dump.find((folder_ / "wedge.obj").string()), std::string::npos);
   const auto again = base::ReadConfig<SceneConfig>(base::YamlDocument::Parse(dump, "elsewhere/x.yaml"), 1);
   EXPECT_EQ(base::DumpConfig(again), dump);
-  EXPECT_EQ(MakeScene(again, 1).objects.size(), 11U);
+  EXPECT_EQ(MakeWorld(again, 1).objects.size(), 11U);
 }
 
 std::string MeshScene(const std::string& file) {

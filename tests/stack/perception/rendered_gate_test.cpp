@@ -60,7 +60,7 @@ double Median(std::vector<double> values) {
 /// Flies towards one gate of a courtyard, from 5 m to 1 m, at a lateral offset; errors by distance in decimetres.
 void Approach(int seed, std::map<int, std::vector<Error>>& errors) {
   base::RandomStream random(seed, "test/rendered gates");
-  const worlds::World world = worlds::MakeCourtyard({}, seed);
+  const worlds::World world = worlds::MakeWorld({}, seed);
   const auto renderer = render::MakeRenderer("auto", world, {});
   const Calibration truth = mapping::test::StereoCalibration(0.0);
   const Calibration told = Misstated(truth, random);
