@@ -27,6 +27,10 @@ int Main(int argc, char** argv) {
       return commands::CheckFiles(line);
     case CommandLine::Verb::kCheckSensors:
       return commands::CheckSensors(line);
+    case CommandLine::Verb::kCheckTextures:
+      return commands::CheckTextures(line);
+    case CommandLine::Verb::kGallery:
+      return commands::Gallery(line);
     case CommandLine::Verb::kBench:
       return commands::Bench(line);
   }

@@ -36,7 +36,7 @@ struct SweepLine {
 
 /// The command line, understood.
 struct CommandLine {
-  enum class Verb { kRun, kExport, kSweep, kReplay, kList, kCheck, kCheckSensors, kBench };
+  enum class Verb { kRun, kExport, kSweep, kReplay, kList, kCheck, kCheckSensors, kCheckTextures, kGallery, kBench };
   Verb verb = Verb::kList;
   std::vector<std::string> names;  // of scenarios, files, runs or benchmarks
   std::optional<std::uint64_t> seed;
@@ -47,8 +47,12 @@ struct CommandLine {
   bool video = false;
   std::optional<dataset::Format> dataset;  // of run and export
   Limits limits;
-  bool all = false;  // run: every scenario of the catalog
-  std::string tag;   // of those
+  std::string kind;                 // list: of these alone
+  std::vector<std::string> beside;  // check textures: folders of real pictures
+  int pictures = 40;                // check textures: views a world
+  bool gallery = false;             // export: worlds in place of a flight
+  bool all = false;                 // run: every scenario of the catalog
+  std::string tag;                  // of those
   bool diff = false;
   bool quiet = false;
   std::filesystem::path json;   // file of figures or verdicts; "-": standard output; empty: none

@@ -1,6 +1,7 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -15,13 +16,26 @@
 
 namespace alula::scenarios::commands {
 
+namespace {
+
+/// What an entry says of itself: a scenario its `meaning`, a vehicle or a world the comment that its file begins with.
+std::string MeaningOf(const CatalogEntry& entry) {
+  if (entry.kind == "scenario") return LoadScenario(entry.file, {}, std::nullopt).config.meaning;
+  std::ifstream file(entry.file);
+  std::string first;
+  std::getline(file, first);
+  return first.starts_with("# ") ? first.substr(2) : std::string();
+}
+
+}  // namespace
+
 int List(const CommandLine& line) {
   nlohmann::ordered_json json = nlohmann::ordered_json::array();
   for (const CatalogEntry& entry : ListCatalogs()) {
-    const std::string meaning =
-        entry.kind == "scenario" ? LoadScenario(entry.file, {}, std::nullopt).config.meaning : std::string();
+    if (!line.kind.empty() && line.kind != entry.kind + "s") continue;
+    const std::string meaning = MeaningOf(entry);
     json.push_back({{"kind", entry.kind}, {"name", entry.name}, {"meaning", meaning}});
-    if (line.json != "-") std::printf("%-10s%-20s %s\n", entry.kind.c_str(), entry.name.c_str(), meaning.c_str());
+    if (line.json != "-") std::printf("%-10s%-27s %s\n", entry.kind.c_str(), entry.name.c_str(), meaning.c_str());
   }
   if (!line.json.empty()) WriteFile("--json", line.json, json.dump(2) + "\n");
   return 0;

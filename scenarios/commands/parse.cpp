@@ -68,11 +68,15 @@ void AddFlight(CLI::App& verb, CommandLine& line, Raw& raw) {
       ->check(kPositive);
 }
 
+void AddStack(CLI::App& verb, Raw& raw) {
+  verb.add_option("--stack", raw.stack, "a shared library (stack/interface/plugin.h) that flies in the stack's place")
+      ->type_name("LIBRARY");
+}
+
 /// What they understand of the scenario to fly.
 CLI::Option* AddScenario(CLI::App& verb, Raw& raw) {
   AddSet(verb, raw);
-  verb.add_option("--stack", raw.stack, "a shared library (stack/interface/plugin.h) that flies in the stack's place")
-      ->type_name("LIBRARY");
+  AddStack(verb, raw);
   return verb.add_option("scenario", raw.name, "a name of the catalog ('alula list') or a YAML file");
 }
 
@@ -104,13 +108,21 @@ CLI::App* AddRun(CLI::App& app, CommandLine& line, Raw& raw) {
 CLI::App* AddExport(CLI::App& app, CommandLine& line, Raw& raw) {
   CLI::App* verb = app.add_subcommand(
       "export",
-      "fly a scenario and write what its sensors said, and the truth, as a dataset; exit codes are those of run");
-  AddScenario(*verb, raw)->required();
+      "fly a scenario and write what its sensors said, and the truth, as a dataset (exit codes are those of run); or, "
+      "with --gallery, draw worlds without flying");
+  AddSet(*verb, raw);
+  AddStack(*verb, raw);
+  verb->add_option("scenario", line.names,
+                   "a name of the catalog ('alula list') or a YAML file; with --gallery worlds");
+  verb->add_flag("--gallery", line.gallery,
+                 "a contact sheet (PNG) of each world named, of all without names: colour, grey, depth, ids by day, "
+                 "colour and infrared at night");
   AddSeed(*verb, raw);
   AddFlight(*verb, line, raw);
   verb->add_option("--format", raw.format, "euroc (ASL layout: images, IMU) or tum (RGB-D); default: euroc")
       ->check(kFormats);
-  verb->add_option("--out", raw.out, "folder of the dataset (default: datasets/<scenario>/<seed>)");
+  verb->add_option("--out", raw.out,
+                   "folder of the dataset (default: datasets/<scenario>/<seed>) or of the gallery (default: gallery)");
   verb->add_flag("--quiet", line.quiet, "no progress, one line at the end");
   return verb;
 }
@@ -185,6 +197,7 @@ dataset::Format FormatOf(const std::string& word) {
 struct Check {
   CLI::App* files = nullptr;
   CLI::App* sensors = nullptr;
+  CLI::App* textures = nullptr;
 };
 Check AddCheck(CLI::App& app, CommandLine& line, Raw& raw) {
   Check check;
@@ -196,7 +209,16 @@ Check AddCheck(CLI::App& app, CommandLine& line, Raw& raw) {
   check.sensors->add_option("scenario", raw.name, "a name of the catalog ('alula list') or a YAML file")->required();
   AddRender(*check.sensors, line);
   AddJson(*check.sensors, raw, "the report");
-  for (CLI::App* verb : {check.files, check.sensors}) {
+  check.textures = check.files->add_subcommand(
+      "textures", "count the corners and lines that worlds offer a tracker, beside pictures of real cameras");
+  check.textures->add_option("worlds", line.names, "names of the catalog or YAML files (default: all worlds)");
+  check.textures->add_option("--beside", line.beside, "a folder of PNG files to measure likewise (may be repeated)")
+      ->type_name("DIR");
+  check.textures->add_option("--pictures", line.pictures, "views of each world (default: 40)")
+      ->check(CLI::Range(1, 10'000));
+  AddRender(*check.textures, line);
+  AddJson(*check.textures, raw, "the table");
+  for (CLI::App* verb : {check.files, check.sensors, check.textures}) {
     AddSet(*verb, raw);
     verb->add_option("--seed", raw.seed, "from which distributions are drawn");
   }
@@ -230,6 +252,12 @@ void CheckRun(const CommandLine& line) {
   if (!line.all && !line.tag.empty()) throw base::InputError("run: --tag goes with --all");
 }
 
+void CheckExport(const CommandLine& line) {
+  if (!line.gallery && line.names.size() != 1) {
+    throw base::InputError("export: takes one scenario ('alula export --help' shows how)");
+  }
+}
+
 void CheckSweep(const CommandLine& line) {
   const SweepLine& sweep = line.sweep;
   if (!sweep.search.empty() && sweep.engine != "local") {
@@ -258,6 +286,8 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
   CLI::App* sweep = AddSweep(app, line, raw);
   CLI::App* replay = AddReplay(app, line, raw);
   CLI::App* list = app.add_subcommand("list", "name the scenarios, vehicles and worlds of the catalogs");
+  list->add_option("kind", line.kind, "scenarios, vehicles or worlds alone")
+      ->check(CLI::IsMember({"scenarios", "vehicles", "worlds"}));
   AddJson(*list, raw, "the list");
   const Check check = AddCheck(app, line, raw);
   CLI::App* bench = app.add_subcommand("bench", "measure, beside a reference in the same run");
@@ -275,14 +305,16 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
   if (check.sensors->parsed() && !line.names.empty()) {
     throw base::InputError("check sensors: takes one scenario ('alula check sensors --help')");
   }
-  std::size_t seeds = check.sensors->count("--seed") + check.files->count("--seed");
+  std::size_t seeds = check.sensors->count("--seed") + check.textures->count("--seed") + check.files->count("--seed");
   for (const CLI::App* verb : {run, dataset, sweep}) seeds += verb->count("--seed");
   if (seeds > 0) line.seed = raw.seed;
   Understand(raw, line);
+  if (dataset->parsed()) CheckExport(line);
   if (run->parsed() || dataset->parsed()) {
     line.verb = run->parsed() ? CommandLine::Verb::kRun : CommandLine::Verb::kExport;
     if (run->parsed()) CheckRun(line);
     if (dataset->parsed() || run->count("--dataset") > 0) line.dataset = FormatOf(raw.format);
+    if (line.gallery) line.verb = CommandLine::Verb::kGallery;
   }
   if (sweep->parsed()) {
     line.verb = CommandLine::Verb::kSweep;
@@ -292,6 +324,8 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
   if (list->parsed()) line.verb = CommandLine::Verb::kList;
   if (check.sensors->parsed()) {
     line.verb = CommandLine::Verb::kCheckSensors;
+  } else if (check.textures->parsed()) {
+    line.verb = CommandLine::Verb::kCheckTextures;
   } else if (check.files->parsed()) {
     if (line.names.empty()) throw base::InputError("check: files is required ('alula check --help' shows how)");
     line.verb = CommandLine::Verb::kCheck;

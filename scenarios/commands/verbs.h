@@ -7,6 +7,8 @@ namespace alula::scenarios::commands {
 // Each does one verb and gives the exit code.
 int Run(const CommandLine& line);
 int Export(const CommandLine& line);
+int Gallery(const CommandLine& line);
+int CheckTextures(const CommandLine& line);
 int List(const CommandLine& line);
 int CheckFiles(const CommandLine& line);
 int CheckSensors(const CommandLine& line);
