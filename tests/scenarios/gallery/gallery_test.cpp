@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "base/random.h"
+#include "render/camera_renderer.h"
 #include "scenarios/factories.h"
 #include "scenarios/gallery/contact_sheet.h"
 #include "scenarios/gallery/texture_statistics.h"
@@ -85,6 +85,40 @@ TEST(ContactSheet, ShowsEveryPassOfEveryViewpoint) {
   EXPECT_GT(sheet.triangles, 1000U);
   EXPECT_EQ(sheet.objects, worlds::MakeWorld(small, 1).objects.size());
 }
+
+/// Every world of the catalog, whatever is added to it.
+class EachWorld : public testing::TestWithParam<CatalogEntry> {
+ protected:
+  static std::vector<std::uint8_t> PictureOf(std::uint64_t seed) {
+    const auto world = MakeWorld(LoadWorld(GetParam().file, {}, seed), seed);
+    const auto renderer = render::MakeRenderer("raster", *world, {});
+    std::vector<std::uint8_t> bytes;
+    for (const Viewpoint& viewpoint : NamedViewpoints(*world)) {
+      render::View view;
+      view.X_WC = viewpoint.X_WC;
+      view.intrinsics = WideCamera(160, 120);
+      render::Picture picture;
+      renderer->Colour(view, picture);
+      bytes.insert(bytes.end(), picture.bytes.begin(), picture.bytes.end());
+    }
+    return bytes;
+  }
+};
+
+TEST_P(EachWorld, LooksTheSameForTheSameSeedAndOtherwiseForAnother) {
+  const std::vector<std::uint8_t> first = PictureOf(1);
+  EXPECT_EQ(first, PictureOf(1));
+  EXPECT_NE(first, PictureOf(2));
+}
+
+std::vector<CatalogEntry> CatalogWorlds() {
+  std::vector<CatalogEntry> worlds = ListCatalogs();
+  std::erase_if(worlds, [](const CatalogEntry& entry) { return entry.kind != "world"; });
+  return worlds;
+}
+
+INSTANTIATE_TEST_SUITE_P(Catalog, EachWorld, testing::ValuesIn(CatalogWorlds()),
+                         [](const auto& param) { return param.param.name; });
 
 }  // namespace
 }  // namespace alula::scenarios::gallery
