@@ -90,6 +90,7 @@ class Reader {
       values_.NoteIn(draws);
       return ReadField(field, *draw.node, draw.path);
     }
+    if (field.info.origin != nullptr) *field.info.origin = {node.where, path};
     std::visit([&](const auto& value) { Read(value, field.info, node, path); }, field.value);
   }
 

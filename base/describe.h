@@ -37,7 +37,7 @@ struct FieldInfo {
   bool required = false;                    // no default: the file must give it
   std::vector<std::string_view> choices{};  // for strings and enums: the words allowed, in the order of the enum
   bool is_path = false;      // a file name: a relative one starts at the folder of the YAML file that states it
-  Origin* origin = nullptr;  // of a text: the reader notes here where it found it
+  Origin* origin = nullptr;  // the reader notes here where it found the value
 };
 
 /// A config struct has one function, found by argument-dependent lookup:

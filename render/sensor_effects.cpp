@@ -1,5 +1,7 @@
 #include "render/sensor_effects.h"
 
+#include <algorithm>
+
 #include "base/hash.h"
 #include "render/internal/sensor_kernel.h"
 
@@ -24,6 +26,11 @@ void Describe(base::Description& d, Dirt& c) {
           {.unit = "1", .meaning = "share of the light that the thick of a smudge scatters", .min = 0, .max = 1});
   d.Field("obscured", c.obscured,
           {.unit = "1", .meaning = "share of the picture behind a patch of mud", .min = 0, .max = 1});
+}
+
+Dirt Together(const Dirt& a, const Dirt& b) {
+  const auto either = [](double x, double y) { return 1.0 - (1.0 - x) * (1.0 - y); };
+  return {either(a.smudged, b.smudged), std::max(a.smudge_loss, b.smudge_loss), either(a.obscured, b.obscured)};
 }
 
 void Describe(base::Description& d, Glare& c) {

@@ -27,8 +27,12 @@ struct Dirt {
   double smudged = 0.0;      // share of the picture behind smudges
   double smudge_loss = 0.4;  // share of the light that the thick of a smudge scatters
   double obscured = 0.0;     // share of the picture behind one patch of mud
+  bool operator==(const Dirt&) const = default;
 };
 void Describe(base::Description& d, Dirt& c);
+/// Both on one lens, each on its share of what the other leaves; the thicker smudges count. Where smudges and patch lie
+/// is the camera's: they grow where they are.
+Dirt Together(const Dirt& a, const Dirt& b);
 
 /// Light that reflections and scatter inside the lens spread from the sun or a lamp over the picture: a veil that falls
 /// with the square of the angle θ from the light (as Stiles and Holladay found for the eye), and ghosts, the light's

@@ -12,6 +12,7 @@
 #include "scenarios/end_of_stack.h"
 #include "scenarios/numeric_class.h"
 #include "scenarios/world_json.h"
+#include "sim/faults/scope.h"
 #include "sim/interval_digests.h"
 #include "sim/run_folder.h"
 
@@ -66,6 +67,7 @@ sim::SimulationParts MakeParts(const Scenario& scenario, const RunOptions& optio
   parts.config = config.simulation;
   parts.sensors = config.sensors;
   parts.autopilot_sensors = config.autopilot_sensors;
+  parts.faults = config.faults;
   parts.world = MakeWorld(config.world, scenario.seed);
   parts.vehicle = MakeVehicle(config.vehicle, kVehicle);
   parts.autopilot = MakeAutopilot(config.autopilot, config.vehicle);
@@ -259,8 +261,12 @@ sim::SimulationParts BuildParts(const Scenario& scenario, const RunOptions& opti
 void TryToBuild(const Scenario& scenario) {
   const auto world = MakeWorld(scenario.config.world, scenario.seed);
   const auto vehicle = MakeVehicle(scenario.config.vehicle, kVehicle);
-  MakeAutopilot(scenario.config.autopilot, scenario.config.vehicle);
-  MakeStack(scenario, {}, sim::TrueCalibration(scenario.config.sensors, vehicle->body(), kVehicle), *world);
+  const auto autopilot = MakeAutopilot(scenario.config.autopilot, scenario.config.vehicle);
+  const auto stack =
+      MakeStack(scenario, {}, sim::TrueCalibration(scenario.config.sensors, vehicle->body(), kVehicle), *world);
+  const sim::faults::Scope scope =
+      sim::faults::ScopeOf(scenario.config.sensors, *vehicle, *world, kVehicle, autopilot != nullptr, stack != nullptr);
+  const sim::faults::Injector faults(scenario.config.faults, scope, scenario.seed);
 }
 
 std::optional<base::Duration> LimitOf(const ScenarioConfig& config) {

@@ -62,6 +62,7 @@ void Describe(base::Description& d, ScenarioConfig& c) {
   d.OneOf("autopilot", c.autopilot, {.meaning = "low-level control", .choices = {"none", "multicopter"}});
   d.Field("autopilot_sensors", c.autopilot_sensors, {.meaning = "what the autopilot owns"});
   d.Field("sensors", c.sensors, {.meaning = "what the stack is given"});
+  sim::faults::DescribeFaults(d, c.faults);
   d.Field("knowledge", c.knowledge, {.meaning = "how wrong the stack's calibration and mission are"});
   d.Field("mission", c.mission, {.meaning = "what is asked of the stack"});
   d.OneOf("stack", c.stack,

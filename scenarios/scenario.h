@@ -65,6 +65,7 @@ struct ScenarioConfig {
   AutopilotConfig autopilot;
   sim::AutopilotSensorsConfig autopilot_sensors;
   sim::SensorsConfig sensors;
+  std::vector<sim::faults::Config> faults;
   sim::KnowledgeErrors knowledge;
   MissionConfig mission;
   StackConfig stack;

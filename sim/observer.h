@@ -29,7 +29,8 @@ struct StepView {
   const vehicles::VehicleModel& vehicle;
   const vehicles::Autopilot* autopilot = nullptr;
   const worlds::World& world;
-  ImuBias imu_bias;  // true, of the stack's IMU; zero where there is none
+  ImuBias imu_bias;                                   // true, of the stack's IMU; zero where there is none
+  std::span<const stack::StackEvent> fault_events{};  // faults of the scenario that began or ended at its begin
 };
 
 /// Looks at every step: recorders, criteria, pictures. It changes nothing in the loop.

@@ -93,6 +93,7 @@ void Recorder::RecordEvents(const StepView& step) {
   if (step.output != nullptr) {
     for (const stack::StackEvent& event : step.output->events) AddEvent(event.time, "stack", event.kind, event.text);
   }
+  for (const stack::StackEvent& event : step.fault_events) AddEvent(event.time, "fault", event.kind, event.text);
   if (step.status.mode != last_status_.mode)
     AddEvent(step.truth.begin, "autopilot", "mode", ModeName(step.status.mode));
   if (step.status.ready_to_arm != last_status_.ready_to_arm) {

@@ -26,7 +26,7 @@ std::string EventLine(base::Time time, std::string_view source, std::string_view
 /// Streams a run to disk with bounded memory:
 ///   truth.tum      time x y z qx qy qz qw of X_WB, world frame
 ///   estimate.tum   the same of X_MB = X_MO X_OB as published at each time
-///   events.jsonl   what the stack, the autopilot (modes) and the world (contacts) say
+///   events.jsonl   what the stack, the autopilot (modes), the world (contacts) and faults (their begin and end) say
 ///   telemetry.csv  one line a sample, units in the header
 class Recorder : public Observer {
  public:

@@ -40,7 +40,7 @@ struct HashSink {
 
 void RunDigest::Add(const StepView& step) {
   HashSink sink{*this};
-  VisitRun(StepRecords{step.truth.at_end, step.measurements, step.output}, sink);
+  VisitRun(StepRecords{step.truth.at_end, step.measurements, step.output, step.fault_events}, sink);
 }
 
 std::string RunDigest::Hex() const {

@@ -12,7 +12,7 @@
 namespace alula::sim {
 
 /// What a run is made of, as far as a digest covers it: the state after each step; the stack's estimates, commands and
-/// events; what it was given, pictures by every byte. run_fields.h has every field.
+/// events, and those of faults; what it was given, pictures by every byte. run_fields.h has every field.
 enum class Stream : std::uint8_t { kTruth, kEstimates, kCommands, kEvents, kMeasurements };
 inline constexpr std::size_t kStreams = 5;
 /// By Stream.

@@ -21,6 +21,7 @@ struct StepRecords {
   const vehicles::BodyState& truth;  // at the step's end
   std::span<const stack::Measurement> measurements;
   const stack::StackOutput* output = nullptr;  // null where no stack flies
+  std::span<const stack::StackEvent> fault_events{};
 };
 
 /// What sets a record apart from others of its stream; kind is empty where all are alike.
@@ -159,6 +160,14 @@ void VisitCommand(const stack::Command& command, Sink& sink) {
   std::visit([&f](const auto& what) { Visit(what, f); }, command.what);
 }
 
+template <typename Sink>
+void VisitEvent(const stack::StackEvent& event, Sink& sink) {
+  auto f = sink.Record(Stream::kEvents, RecordName{.kind = event.kind});
+  f("time", event.time);
+  f("kind", std::string_view(event.kind));
+  f("text", std::string_view(event.text));
+}
+
 }  // namespace run_fields
 
 /// The one walk over all that makes two runs the same or not: the digest hashes it, a comparison of runs names it. It
@@ -178,13 +187,9 @@ void VisitRun(const StepRecords& step, Sink& sink) {
   if (step.output != nullptr) {
     if (step.output->estimate) run_fields::Visit(*step.output->estimate, sink.Record(Stream::kEstimates, RecordName{}));
     for (const stack::Command& command : step.output->commands) run_fields::VisitCommand(command, sink);
-    for (const stack::StackEvent& event : step.output->events) {
-      auto f = sink.Record(Stream::kEvents, RecordName{.kind = event.kind});
-      f("time", event.time);
-      f("kind", std::string_view(event.kind));
-      f("text", std::string_view(event.text));
-    }
+    for (const stack::StackEvent& event : step.output->events) run_fields::VisitEvent(event, sink);
   }
+  for (const stack::StackEvent& event : step.fault_events) run_fields::VisitEvent(event, sink);
   auto f = sink.Record(Stream::kTruth, RecordName{});
   f("X_WB", step.truth.X_WB);
   f("v_WB", step.truth.v_WB);

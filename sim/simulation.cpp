@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "base/error.h"
+#include "sim/faults/scope.h"
 #include "sim/finite.h"
+#include "sim/gate_crossing.h"
 #include "sim/knowledge.h"
 
 namespace alula::sim {
@@ -23,6 +25,20 @@ vehicles::BodyState StartState(const SimulationParts& parts) {
   const vehicles::VehicleBody& body = parts.vehicle->body();
   if (body.prescribed) return parts.vehicle->Prescribed({0});
   return {StartPose(*parts.world, body.standing_height), base::Vec3::Zero(), base::Vec3::Zero()};
+}
+
+/// Runs what calls the stack; what that throws is a fault of the stack.
+template <typename Call>
+auto AskStack(const Call& call) {
+  try {
+    return call();
+  } catch (const std::bad_alloc&) {
+    throw base::FaultError("memory", "the stack asked for more memory than there is");
+  } catch (const std::exception& e) {
+    throw base::FaultError("stack_exception", e.what());
+  } catch (...) {
+    throw base::FaultError("stack_exception", "the stack threw something that is no std::exception");
+  }
 }
 
 }  // namespace
@@ -47,12 +63,18 @@ Simulation::Simulation(SimulationParts parts)
   truth_ = {{0}, {0}, physics_->state(), physics_->state()};
   sensors_.Settle(truth_.at_end);
   autopilot_imu_.Settle(truth_.at_end);
+  if (parts_.faults.empty()) return;
+  const faults::Scope scope = faults::ScopeOf(parts_.sensors, *parts_.vehicle, *parts_.world, parts_.vehicle_id,
+                                              parts_.autopilot != nullptr, parts_.stack != nullptr);
+  injector_ = std::make_unique<faults::Injector>(parts_.faults, scope, parts_.seed);
+  sensors_.Break(injector_.get());
 }
 
 Simulation::~Simulation() = default;
 
 std::optional<std::string> Simulation::Step() {
   if (parts_.measure_time) lap_ns_ = WallNow();
+  if (injector_) StepFaults();
   sensors_.Measure(truth_, {parts_.vehicle->Battery(), autopilot_output_.status, parts_.config.link_delay});
   sensors_.Collect(time_, measurements_);
   Lap(kSensors);
@@ -67,23 +89,47 @@ std::optional<std::string> Simulation::Step() {
   return reason;
 }
 
+void Simulation::StepFaults() {
+  const worlds::World& world = *parts_.world;
+  if (static_cast<std::size_t>(gates_passed_) < world.gates.size()) {
+    const auto crossing = CrossingOf(world.gates[static_cast<std::size_t>(gates_passed_)], truth_);
+    if (crossing && crossing->forward) ++gates_passed_;
+  }
+  const vehicles::BodyState& now = truth_.at_end;
+  const bool changed = injector_->Advance({.now = time_,
+                                           .height = now.X_WB.p.z() - world.X_WB_start.p.z(),
+                                           .speed = now.v_WB.norm(),
+                                           .target_distance = (now.X_WB.p - world.target).norm(),
+                                           .gates_passed = gates_passed_,
+                                           .mode = autopilot_output_.status.mode});
+  if (!changed) return;
+  const faults::Impairments& broken = injector_->impairments();
+  parts_.vehicle->Impair(broken.vehicle);
+  sensors_.Soil(broken.dirt);
+  SlowComputer(broken.computer);
+}
+
+void Simulation::SlowComputer(double factor) {
+  if (factor == computer_factor_) return;
+  computer_factor_ = factor;
+  const bool heeded = AskStack([&] { return parts_.stack->SetComputeFactor(factor); });
+  if (heeded || factor == 1.0) return;
+  injector_->Say(time_, "fault_ignored", "this stack declares no latencies: the speed of its computer changes nothing");
+}
+
 void Simulation::StepStack() {
   if (!parts_.stack) return;
-  try {
-    output_ = parts_.stack->Step(time_, measurements_);
-  } catch (const std::bad_alloc&) {
-    throw base::FaultError("memory", "the stack asked for more memory than there is");
-  } catch (const std::exception& e) {
-    throw base::FaultError("stack_exception", e.what());
-  } catch (...) {
-    throw base::FaultError("stack_exception", "the stack threw something that is no std::exception");
-  }
+  output_ = AskStack([this] { return parts_.stack->Step(time_, measurements_); });
   if (const std::string wrong = FirstNonFinite(output_); !wrong.empty()) {
     throw base::FaultError("stack_nan", "the stack's " + wrong + " is not finite");
   }
   const base::Time due = time_ + parts_.config.link_delay;
-  if (output_.estimate) link_.push_back({due, *output_.estimate});
-  for (const stack::Command& command : output_.commands) link_.push_back({due, command});
+  const bool lost = injector_ && injector_->impairments().commands_lost;
+  if (output_.estimate && !lost) link_.push_back({due, *output_.estimate});
+  for (const stack::Command& command : output_.commands) {
+    const bool to_gimbal = std::holds_alternative<stack::GimbalSetpoint>(command.what);
+    if (to_gimbal || !lost) link_.push_back({due, command});
+  }
 }
 
 void Simulation::StepLink() {
@@ -110,6 +156,7 @@ void Simulation::StepAutopilot() {
     ++autopilot_barometer_n_;
   }
   sensors.battery_voltage = parts_.vehicle->Battery().voltage;
+  if (injector_) sensors = autopilot_line_.Pass(time_, sensors, *injector_);
   autopilot_output_ = parts_.autopilot->Step(time_, sensors);
   for (const double motor : autopilot_output_.actuators.motors) {
     if (!std::isfinite(motor)) throw base::FaultError("autopilot_nan", "a motor command is not finite");
@@ -150,7 +197,8 @@ std::optional<std::string> Simulation::StepObservers() {
                       .vehicle = *parts_.vehicle,
                       .autopilot = parts_.autopilot.get(),
                       .world = *parts_.world,
-                      .imu_bias = sensors_.imu_bias()};
+                      .imu_bias = sensors_.imu_bias(),
+                      .fault_events = injector_ ? injector_->events() : std::span<const stack::StackEvent>()};
   std::optional<std::string> reason;
   for (Observer* observer : parts_.observers) {
     std::optional<std::string> wish = observer->Observe(view);

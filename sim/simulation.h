@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "base/describe.h"
+#include "sim/faults/autopilot_sensors.h"
+#include "sim/faults/injector.h"
 #include "sim/observer.h"
 #include "sim/physics_world.h"
 #include "sim/sensors/suite.h"
@@ -29,6 +31,7 @@ struct SimulationParts {
   SimulationConfig config;
   SensorsConfig sensors;
   AutopilotSensorsConfig autopilot_sensors;
+  std::vector<sim::faults::Config> faults;
   std::shared_ptr<const worlds::World> world;
   std::unique_ptr<vehicles::VehicleModel> vehicle;
   std::unique_ptr<vehicles::Autopilot> autopilot;    // null: the motors stay off
@@ -43,17 +46,20 @@ struct SimulationParts {
 
 /// The closed loop. One step from t to t + dt:
 ///
-///   1. sensors whose sample time lies in (t − dt, t] measure the truth with their own random streams
-///   2. stack.Step(t, measurements with available ≤ t)           → commands, estimate, events
-///   3. commands and estimate reach the autopilot (or a gimbal) once the link delay has passed
-///   4. autopilot.Step(t, its own sensors)                       → motor commands
-///   5. vehicle.Step(state at t, wind)                           → force and torque
-///   6. Bullet steps to t + dt (a prescribed vehicle is put where it is then); contacts are read
-///   7. observers look at the step; one may end the run with a named reason
+///   1. faults of the scenario that are due begin and end; what they do to vehicle, lenses and computer is set
+///   2. sensors whose sample time lies in (t − dt, t] measure the truth with their own random streams; faults lose a
+///      measurement, delay it, or change it on its arrival
+///   3. stack.Step(t, measurements with available ≤ t)           → commands, estimate, events
+///   4. commands and estimate reach the autopilot (or a gimbal) once the link delay has passed
+///   5. autopilot.Step(t, its own sensors)                       → motor commands
+///   6. vehicle.Step(state at t, wind)                           → force and torque
+///   7. Bullet steps to t + dt (a prescribed vehicle is put where it is then); contacts are read
+///   8. observers look at the step; one may end the run with a named reason
 ///
 /// Deterministic: everything follows from the parts and the seed.
 class Simulation {
  public:
+  /// Throws base::InputError where faults, sensors or light do not fit the rest.
   explicit Simulation(SimulationParts parts);
   ~Simulation();
 
@@ -76,6 +82,8 @@ class Simulation {
   };
   enum Stage { kSensors, kStack, kAutopilot, kVehicle, kPhysics, kObservers, kStages };
 
+  void StepFaults();
+  void SlowComputer(double factor);
   void StepStack();
   void StepLink();
   void StepAutopilot();
@@ -85,6 +93,10 @@ class Simulation {
 
   SimulationParts parts_;
   std::unique_ptr<PhysicsWorld> physics_;
+  std::unique_ptr<faults::Injector> injector_;  // null: nothing goes wrong
+  faults::AutopilotSensorLine autopilot_line_;
+  int gates_passed_ = 0;  // for conditions of faults
+  double computer_factor_ = 1.0;
   SensorSuite sensors_;
   Imu autopilot_imu_;
   Barometer autopilot_barometer_;

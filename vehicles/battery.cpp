@@ -43,10 +43,16 @@ Battery::Battery(const BatteryConfig& config) : config_(config), charge_(config.
 void Battery::Load(double shaft_power) {
   // Braking motors give nothing back.
   const double power = std::max(0.0, shaft_power) / config_.drive_efficiency + config_.avionics_power;
-  const double open = config_.cells * CellVoltage(charge_);
-  const double discriminant = open * open - 4 * config_.internal_resistance * power;
+  const double open = voltage_share_ * config_.cells * CellVoltage(charge_);
+  const double resistance = resistance_factor_ * config_.internal_resistance;
+  const double discriminant = open * open - 4 * resistance * power;
   voltage_ = 0.5 * (open + std::sqrt(std::max(0.0, discriminant)));
-  current_ = discriminant > 0 ? power / voltage_ : 0.5 * open / config_.internal_resistance;
+  current_ = discriminant > 0 ? power / voltage_ : 0.5 * open / resistance;
+}
+
+void Battery::Impair(double resistance, double voltage) {
+  resistance_factor_ = resistance;
+  voltage_share_ = voltage;
 }
 
 void Battery::Step(double shaft_power, base::Duration dt) {

@@ -30,6 +30,10 @@ class Battery {
   /// Draws the shaft power of all motors (W) for dt.
   void Step(double shaft_power, base::Duration dt);
 
+  /// A failing pack: internal resistance times `resistance`, open-circuit voltage times `voltage` (a shorted cell of
+  /// four leaves 0.75), from the next step on.
+  void Impair(double resistance, double voltage);
+
   double voltage() const { return voltage_; }  // V at the terminals
   double current() const { return current_; }  // A
   double state_of_charge() const { return charge_; }
@@ -39,6 +43,7 @@ class Battery {
 
   BatteryConfig config_;
   double charge_;
+  double resistance_factor_ = 1.0, voltage_share_ = 1.0;
   double voltage_ = 0.0;
   double current_ = 0.0;
 };

@@ -106,8 +106,9 @@ class MulticopterAutopilot final : public Autopilot {
     flying_for_ += dt;
     const bool airborne = !detector_.landed();
     const double relative_voltage = voltage_ / nominal_voltage_;
-    const double most = full_thrust_ * std::min(1.0, relative_voltage * relative_voltage);
     const double least = full_thrust_ * config_.idle_command * config_.idle_command;
+    // A battery that has collapsed does not give more than the least.
+    const double most = std::max(least, full_thrust_ * std::min(1.0, relative_voltage * relative_voltage));
 
     const double climb = config_.position.maximum_climb * std::min(1.0, flying_for_ / kTakeoffRamp);
     Vec3 f = position_.Step(goal.setpoint, x.p_OB, x.v_OB, kThrustReserve * kRotors * most / config_.assumed_mass,

@@ -41,6 +41,14 @@ class Quadrotor final : public VehicleModel {
     return {state.X_WB.q * force_B, state.X_WB.q * torque_B};
   }
 
+  int Motors() const override { return kRotors; }
+  void Impair(const Impairment& broken) override {
+    for (std::size_t i = 0; i < kRotors; ++i) {
+      rotors_[i].Impair(i < broken.motor_thrust.size() ? broken.motor_thrust[i] : 1.0);
+    }
+    battery_.Impair(broken.battery_resistance, broken.battery_voltage);
+  }
+
   stack::BatterySample Battery() const override { return {battery_.voltage(), battery_.current()}; }
 
   std::vector<TelemetryValue> Telemetry() const override {

@@ -46,6 +46,8 @@ Rotor::Rotor(const RotorConfig& config, double air_density, double spin)
       drag_constant_(config.in_plane_drag * air_density * M_PI * std::pow(0.5 * config.diameter, 3)),
       spin_(spin) {}
 
+void Rotor::Impair(double thrust_share) { speed_share_ = std::sqrt(std::clamp(thrust_share, 0.0, 1.0)); }
+
 RotorLoad Rotor::Step(double command, double voltage, const base::Vec3& v_air_B, const base::Vec3& w_B,
                       base::Duration dt) {
   pending_.push_back({clock_ + config_.esc_delay, std::clamp(command, 0.0, 1.0)});
@@ -55,7 +57,7 @@ RotorLoad Rotor::Step(double command, double voltage, const base::Vec3& v_air_B,
   }
   clock_ += dt;
 
-  const double target = config_.maximum_speed * applied_ * voltage / config_.nominal_voltage;
+  const double target = speed_share_ * config_.maximum_speed * applied_ * voltage / config_.nominal_voltage;
   const double before = speed_;
   speed_ += -std::expm1(-dt.Seconds() / config_.time_constant) * (target - speed_);
   const double acceleration = (speed_ - before) / dt.Seconds();

@@ -61,6 +61,8 @@ class Rotor {
   RotorLoad Step(double command, double voltage, const base::Vec3& v_air_B, const base::Vec3& w_B, base::Duration dt);
 
   double speed() const { return speed_; }  // rad/s
+  /// A failing motor: ω_max becomes √share ω_max, so that share of static thrust and torque is left at every command.
+  void Impair(double thrust_share);
 
  private:
   struct Pending {
@@ -75,6 +77,7 @@ class Rotor {
   double spin_;
   double speed_ = 0.0;
   double applied_ = 0.0;
+  double speed_share_ = 1.0;  // that the motor still reaches
   base::Time clock_;
   std::deque<Pending> pending_;
 };

@@ -56,6 +56,13 @@ struct ActuatorCommand {
   std::vector<double> motors;
 };
 
+/// What is broken of a vehicle at the moment; by default nothing.
+struct Impairment {
+  std::vector<double> motor_thrust;  // by motor, share of its thrust that is left; motors beyond: all of it
+  double battery_resistance = 1.0;   // factor on the battery's internal resistance
+  double battery_voltage = 1.0;      // share of its open-circuit voltage
+};
+
 /// Inner quantities worth recording, each with its name and unit ("rotor0_rad_s").
 struct TelemetryValue {
   std::string name;
@@ -71,6 +78,10 @@ class VehicleModel {
   /// `wind_W`: air velocity at the vehicle, m/s.
   virtual Wrench Step(const BodyState& state, const ActuatorCommand& command, const base::Vec3& wind_W,
                       base::Duration dt) = 0;
+  /// Motors that may fail.
+  virtual int Motors() const { return 0; }
+  /// From the next step on this is broken, and nothing else.
+  virtual void Impair(const Impairment&) {}
   /// The prescribed state at time t, for a vehicle whose body says `prescribed`.
   virtual BodyState Prescribed(base::Time) const { return {}; }
   /// When the prescribed motion ends.
@@ -82,6 +93,7 @@ class VehicleModel {
 /// The autopilot's own sensor readings at one of its ticks (1 kHz).
 struct AutopilotSensors {
   stack::ImuSample imu;
+  bool imu_fresh = true;  // taken for this tick; otherwise the last one once more
   std::optional<stack::BaroSample> barometer;
   double battery_voltage = 0.0;
 };

@@ -215,7 +215,6 @@ void ValueReader::Read(std::string* value, const FieldInfo& info, const Node& no
   const std::string& text = ScalarText(node, path, "a text");
   if (!info.choices.empty()) ChoiceIndex(node, path, info);
   *value = text;
-  if (info.origin != nullptr) *info.origin = {node.where, path};
   if (!info.is_path || text.empty() || std::filesystem::path(text).is_absolute()) return;
   const std::filesystem::path folder =
       node.where.line > 0 ? std::filesystem::path(node.where.file).parent_path() : std::filesystem::path();

@@ -5,20 +5,18 @@
 #include <limits>
 
 #include "scenarios/criteria/hull.h"
+#include "sim/gate_crossing.h"
 
 namespace alula::scenarios {
 namespace {
 
 std::optional<GatePassage> Crossing(const worlds::Gate& gate, const sim::StepView& step) {
-  const base::Transform X_GW = gate.X_WG.Inverse();
-  const base::Vec3 before = X_GW * step.truth.at_begin.X_WB.p;
-  const base::Vec3 after = X_GW * step.truth.at_end.X_WB.p;
-  if ((before.x() < 0.0) == (after.x() < 0.0)) return std::nullopt;
-  const base::Vec3 p_GB = before + (after - before) * (before.x() / (before.x() - after.x()));
+  const std::optional<sim::GateCrossing> crossing = sim::CrossingOf(gate, step.truth);
+  if (!crossing) return std::nullopt;
+  const base::Vec3& p_GB = crossing->p_GB;
   const double half = 0.5 * gate.opening;
-  if (std::max(std::abs(p_GB.y()), std::abs(p_GB.z())) > half) return std::nullopt;
 
-  GatePassage passage{.time = step.time, .forward = before.x() < 0.0, .speed = step.truth.at_end.v_WB.norm()};
+  GatePassage passage{.time = step.time, .forward = crossing->forward, .speed = step.truth.at_end.v_WB.norm()};
   const base::Quat q_BG = step.truth.at_end.X_WB.q.conjugate() * gate.X_WG.q;
   passage.margin = std::numeric_limits<double>::infinity();
   for (int axis = 1; axis < 3; ++axis) {

@@ -23,7 +23,8 @@ class PluginStack : public stack::NavigationStack {
  public:
   PluginStack(const PluginConfig& config, const stack::Calibration& calibration, const stack::Mission& mission,
               std::uint64_t seed, int workers)
-      : table_(plugin::LoadLibrary(config.library, config.origin)),
+      : library_(plugin::LoadLibrary(config.library, config.origin)),
+        table_(library_.table),
         parameters_(config.parameters),
         given_(calibration, mission) {
     const AlulaSetup setup{
@@ -48,6 +49,10 @@ class PluginStack : public stack::NavigationStack {
     Expect(
         Call([&] { return table_.step(self_, now.ns, measurements_.data(), measurements_.size(), &output, &error_); }));
     return plugin::Read(output);
+  }
+
+  bool SetComputeFactor(double factor) override {
+    return library_.compute_factor != nullptr && Call([&] { return library_.compute_factor(self_, factor); }) != 0;
   }
 
   std::vector<stack::StackFile> Files() const override {
@@ -89,6 +94,7 @@ class PluginStack : public stack::NavigationStack {
     return "the stack returned " + std::to_string(answer) + " and does not say why";
   }
 
+  const plugin::Library library_;
   const AlulaStackPlugin& table_;
   const std::string parameters_;
   const Given given_;

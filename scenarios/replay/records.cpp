@@ -84,9 +84,13 @@ std::string TimeText(base::Time time) {
 }
 
 KeptStep Keep(const sim::StepView& step, std::int64_t number) {
-  KeptStep kept{
-      number,      step.truth.begin, step.time, step.truth.at_end, {step.measurements.begin(), step.measurements.end()},
-      std::nullopt};
+  KeptStep kept{number,
+                step.truth.begin,
+                step.time,
+                step.truth.at_end,
+                {step.measurements.begin(), step.measurements.end()},
+                std::nullopt,
+                {step.fault_events.begin(), step.fault_events.end()}};
   if (step.output != nullptr) {
     kept.output.emplace();
     kept.output->commands = step.output->commands;
@@ -110,7 +114,8 @@ SensorNames NamesOf(const stack::Calibration& calibration) {
 
 std::vector<Record> NameRecords(const KeptStep& step, const SensorNames& sensors) {
   NameSink sink{sensors, {}};
-  sim::VisitRun(sim::StepRecords{step.truth, step.measurements, step.output ? &*step.output : nullptr}, sink);
+  sim::VisitRun(
+      sim::StepRecords{step.truth, step.measurements, step.output ? &*step.output : nullptr, step.fault_events}, sink);
   return std::move(sink.records);
 }
 

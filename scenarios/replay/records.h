@@ -20,7 +20,8 @@ struct KeptStep {
   base::Time begin, end;
   vehicles::BodyState truth;
   std::vector<stack::Measurement> measurements;
-  std::optional<stack::StackOutput> output;  // without what it shows of itself
+  std::optional<stack::StackOutput> output{};  // without what it shows of itself
+  std::vector<stack::StackEvent> fault_events{};
 };
 KeptStep Keep(const sim::StepView& step, std::int64_t number);
 

@@ -123,7 +123,8 @@ void AddCameras(const CamerasConfig& config, const std::string& vehicle, stack::
 CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& calibration, std::uint64_t seed,
                          std::vector<base::Transform> X_BP, const worlds::Light& light,
                          std::vector<render::CameraRenderer*> renderers, bool threads)
-    : X_BP_(std::move(X_BP)),
+    : seed_(seed),
+      X_BP_(std::move(X_BP)),
       light_(light),
       gimbal_configs_(config.gimbals),
       gimbal_calibrations_(calibration.gimbals),
@@ -133,7 +134,7 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
     exposures_.emplace_back(*config.stereo);
     const auto lens = std::make_shared<const render::Lens>(calibration.cameras[0].intrinsics);
     for (int eye = 0; eye < 2; ++eye) {
-      AddUnit(*config.stereo, calibration.cameras[number++], lens, EyePose(*config.stereo, eye), seed);
+      AddUnit(*config.stereo, calibration.cameras[number++], lens, EyePose(*config.stereo, eye));
       units_.back().meters = eye == 0;
     }
     units_.back().late = config.stereo->eye_offset;
@@ -142,15 +143,15 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
   for (const NamedCameraConfig& camera : config.cameras) {
     exposures_.emplace_back(camera);
     const auto lens = std::make_shared<const render::Lens>(calibration.cameras[number].intrinsics);
-    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera), seed);
+    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera));
     units_.back().meters = true;
   }
   for (const RgbdCameraConfig& camera : config.rgbd) {
     exposures_.emplace_back(camera);
     const auto lens = std::make_shared<const render::Lens>(calibration.cameras[number].intrinsics);
-    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera), seed);
+    AddUnit(camera, calibration.cameras[number++], lens, MountPose(camera));
     units_.back().meters = true;
-    AddDepthUnit(camera, calibration.cameras[number++], seed);
+    AddDepthUnit(camera, calibration.cameras[number++]);
   }
   for (std::size_t i = 0; i < config.gimbals.size(); ++i) {
     gimbals_.emplace_back(config.gimbals[i], seed, gimbal_calibrations_[i].name);
@@ -158,29 +159,35 @@ CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& 
   }
 }
 
-void CameraSuite::AddUnit(const CameraConfig& config, const stack::CameraCalibration& calibration,
-                          std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC, std::uint64_t seed) {
+CameraSuite::Take CameraSuite::TakeOf(const CameraConfig& config, const stack::CameraCalibration& calibration,
+                                      std::shared_ptr<const render::Lens> lens) const {
   const auto optics = std::make_shared<const Optics>(
-      MakeOptics(config, calibration.intrinsics, std::move(lens), calibration.name, seed, X_BP_, light_));
+      MakeOptics(config, calibration.intrinsics, std::move(lens), calibration.name, seed_, X_BP_, light_));
+  return [optics](const Exposure& e, render::CameraRenderer& r) { return TakeImage(*optics, e, r); };
+}
+
+void CameraSuite::AddUnit(const CameraConfig& config, const stack::CameraCalibration& calibration,
+                          std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC) {
   Unit unit{.config = config,
             .calibration = calibration,
-            .take = [optics](const Exposure& e, render::CameraRenderer& r) { return TakeImage(*optics, e, r); },
+            .take = TakeOf(config, calibration, lens),
+            .lens = lens,
+            .dirt = config.dirt,
             .X_MC = X_MC,
             .gimbal = calibration.gimbal ? std::optional<std::size_t>(*calibration.gimbal) : std::nullopt,
             .exposure = exposures_.size() - 1,
-            .faults = FrameFaults(config.faults, seed, calibration.name),
+            .faults = FrameFaults(config.faults, seed_, calibration.name),
             .clock = {config.rate},
             .opened = {},
             .last = {}};
   units_.push_back(std::move(unit));
 }
 
-void CameraSuite::AddDepthUnit(const RgbdCameraConfig& config, const stack::CameraCalibration& calibration,
-                               std::uint64_t seed) {
+void CameraSuite::AddDepthUnit(const RgbdCameraConfig& config, const stack::CameraCalibration& calibration) {
   const Unit& colour = units_.back();
   DepthOptics optics{config.depth,     DepthIntrinsicsOf(config.depth),
                      std::nullopt,     DepthPoseInColour(config.depth),
-                     calibration.name, seed};
+                     calibration.name, seed_};
   if (config.depth.registered) optics.registered = calibration.intrinsics;
   const auto shared = std::make_shared<const DepthOptics>(std::move(optics));
   Unit unit = colour;
@@ -189,8 +196,9 @@ void CameraSuite::AddDepthUnit(const RgbdCameraConfig& config, const stack::Came
   unit.config.read_out = config.depth.read_out;
   unit.calibration = calibration;
   unit.take = [shared](const Exposure& e, render::CameraRenderer& r) { return TakeDepth(*shared, e, r); };
+  unit.lens = nullptr;
   unit.meters = false;
-  unit.faults = FrameFaults(config.faults, seed, calibration.name);
+  unit.faults = FrameFaults(config.faults, seed_, calibration.name);
   units_.push_back(std::move(unit));
 }
 
@@ -208,6 +216,17 @@ void CameraSuite::Obey(const stack::GimbalSetpoint& setpoint) {
                                                 std::to_string(gimbals_.size()));
   }
   gimbals_[static_cast<std::size_t>(setpoint.gimbal)].Want(setpoint);
+}
+
+void CameraSuite::Soil(const std::map<stack::SensorId, render::Dirt>& dirt) {
+  for (Unit& unit : units_) {
+    const auto found = dirt.find(unit.calibration.sensor);
+    const render::Dirt now = found == dirt.end() ? unit.config.dirt : render::Together(unit.config.dirt, found->second);
+    if (unit.lens == nullptr || now == unit.dirt) continue;
+    CameraConfig config = unit.config;
+    config.dirt = unit.dirt = now;
+    unit.take = TakeOf(config, unit.calibration, unit.lens);
+  }
 }
 
 Instant CameraSuite::At(const Unit& unit, base::Time t) const {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,6 +48,8 @@ class CameraSuite {
   void Settle(base::Time t, const vehicles::BodyState& state);
   void Integrate(base::Time t, const vehicles::BodyState& state, base::Duration dt);
   void Obey(const stack::GimbalSetpoint& setpoint);
+  /// As SensorSuite has it.
+  void Soil(const std::map<stack::SensorId, render::Dirt>& dirt);
 
   /// A frame on its way to the stack; its picture is fetched when it arrives.
   struct Frame {
@@ -74,10 +77,13 @@ class CameraSuite {
     base::Time captured;  // as the stamp says
     ExposureSetting setting;
   };
+  using Take = std::function<Developed(const Exposure&, render::CameraRenderer&)>;
   struct Unit {
     CameraConfig config;
     stack::CameraCalibration calibration;
-    std::function<Developed(const Exposure&, render::CameraRenderer&)> take;
+    Take take;
+    std::shared_ptr<const render::Lens> lens;  // null: of a depth camera
+    render::Dirt dirt;                         // on it now
     base::Transform X_MC;
     std::optional<std::size_t> gimbal;
     std::size_t exposure = 0;  // which control it obeys
@@ -91,14 +97,18 @@ class CameraSuite {
   };
 
   void AddUnit(const CameraConfig& config, const stack::CameraCalibration& calibration,
-               std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC, std::uint64_t seed);
+               std::shared_ptr<const render::Lens> lens, const base::Transform& X_MC);
   /// The depth camera of the colour camera that was added last.
-  void AddDepthUnit(const RgbdCameraConfig& config, const stack::CameraCalibration& calibration, std::uint64_t seed);
+  void AddDepthUnit(const RgbdCameraConfig& config, const stack::CameraCalibration& calibration);
+  /// What makes an image camera's pictures.
+  Take TakeOf(const CameraConfig& config, const stack::CameraCalibration& calibration,
+              std::shared_ptr<const render::Lens> lens) const;
   Instant At(const Unit& unit, base::Time t) const;
   void Open(Unit& unit, base::Time now);
   bool IsOver(const Unit& unit, const Opened& opened, base::Time now) const;
   std::optional<Frame> Close(std::size_t number, const Opened& opened);
 
+  std::uint64_t seed_;
   std::vector<base::Transform> X_BP_;
   worlds::Light light_;
   std::vector<Unit> units_;

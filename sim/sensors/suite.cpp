@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "sim/faults/injector.h"
 
 namespace alula::sim {
 namespace {
@@ -103,15 +104,21 @@ void SensorSuite::Obey(const stack::GimbalSetpoint& setpoint) {
   cameras_->Obey(setpoint);
 }
 
+void SensorSuite::Soil(const std::map<stack::SensorId, render::Dirt>& dirt) {
+  if (cameras_) cameras_->Soil(dirt);
+}
+
 void SensorSuite::Integrate(base::Time t, const vehicles::BodyState& before, const vehicles::BodyState& after) {
   if (imu_) imu_->Integrate(before, after);
   if (cameras_) cameras_->Integrate(t, after, step_);
 }
 
 void SensorSuite::Push(stack::Measurement measurement, std::optional<CameraSuite::Frame> frame) {
+  faults::Numbers struck_by;
+  if (injector_ != nullptr && !injector_->Take(measurement, struck_by)) return;
   const auto later = [](const stack::Measurement& a, const Pending& b) { return ArrivesBefore(b.measurement, a); };
   const auto place = std::upper_bound(pending_.begin(), pending_.end(), measurement, later);
-  pending_.insert(place, {std::move(measurement), std::move(frame)});
+  pending_.insert(place, {std::move(measurement), std::move(frame), std::move(struck_by)});
 }
 
 void SensorSuite::MeasureInertia(base::Time end) {
@@ -167,6 +174,7 @@ void SensorSuite::Collect(base::Time now, std::vector<stack::Measurement>& out) 
       cameras_->Deliver(*arrived.frame);
       arrived.measurement.data = std::move(arrived.frame->measurement.data);
     }
+    if (injector_ != nullptr) injector_->Arrive(arrived.measurement, arrived.struck_by);
     out.push_back(std::move(arrived.measurement));
     pending_.pop_back();
   }

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/describe.h"
+#include "sim/faults/fault.h"
 #include "sim/sensors/barometer.h"
 #include "sim/sensors/camera_suite.h"
 #include "sim/sensors/imu.h"
@@ -14,6 +16,10 @@
 #include "sim/truth.h"
 #include "stack/interface/calibration.h"
 #include "stack/interface/measurement.h"
+
+namespace alula::sim::faults {
+class Injector;
+}
 
 namespace alula::sim {
 
@@ -56,6 +62,11 @@ class SensorSuite {
               const worlds::Light& light = {});
   ~SensorSuite();
 
+  /// From now on every measurement goes through its hands (null: none does). It outlives the suite.
+  void Break(faults::Injector* injector) { injector_ = injector; }
+  /// What lies on lenses from the next exposure on, besides the dirt that cameras have anyway; none: nothing.
+  void Soil(const std::map<stack::SensorId, render::Dirt>& dirt);
+
   void Settle(const vehicles::BodyState& state);
   /// Turns a gimbal. Throws base::FaultError ("stack_command") for one that is not there.
   void Obey(const stack::GimbalSetpoint& setpoint);
@@ -82,6 +93,7 @@ class SensorSuite {
   struct Pending {
     stack::Measurement measurement;
     std::optional<CameraSuite::Frame> frame;
+    faults::Numbers struck_by{};
   };
   void Push(stack::Measurement measurement, std::optional<CameraSuite::Frame> frame = std::nullopt);
   void MeasureInertia(base::Time now);
@@ -98,6 +110,7 @@ class SensorSuite {
   Clock imu_clock_, barometer_clock_, position_clock_, battery_clock_, status_clock_;
   std::uint32_t imu_seq_ = 0;
   std::vector<Pending> pending_;  // the last one arrives first
+  faults::Injector* injector_ = nullptr;
 };
 
 }  // namespace alula::sim

@@ -85,6 +85,10 @@ class NavigationStack {
  public:
   virtual ~NavigationStack() = default;
   virtual StackOutput Step(base::Time now, std::span<const Measurement> measurements) = 0;
+  /// From now on the computer under the stack takes `factor` times as long as declared (1: as declared). This is the
+  /// machine, not news from it: a stack stretches the latencies of work that it begins from here on and decides nothing
+  /// by it. False: this stack declares no latencies, so nothing grows.
+  virtual bool SetComputeFactor(double) { return false; }
   /// Wall time spent so far, by stage; for timing.json.
   virtual std::vector<StageTime> Timing() const { return {}; }
   /// What the stack has made of the run so far; asked for once, after the last Step.

@@ -463,13 +463,19 @@ static inline AlulaTransform alula_identity(void) {
   return X;
 }
 
-/* The one symbol that a library exports: ALULA_STACK_EXPORT const AlulaStackPlugin* alula_stack_plugin(void) { … } */
+/* The one symbol that a library must export: ALULA_STACK_EXPORT const AlulaStackPlugin* alula_stack_plugin(void) { … } */
 #if defined(__GNUC__)
 #define ALULA_STACK_EXPORT __attribute__((visibility("default")))
 #else
 #define ALULA_STACK_EXPORT
 #endif
 ALULA_STACK_EXPORT const AlulaStackPlugin* alula_stack_plugin(void);
+
+/* A second one that a library may export, or not: from now on the computer under this stack takes `factor` times as
+ * long as the stack declares (1: as declared), because a scenario slows it. Stretch the latencies of what you begin
+ * from here on and decide nothing by it; answer 1, or 0 where this stack declares none. A library without this symbol
+ * is never slowed. events.jsonl says so either way. */
+ALULA_STACK_EXPORT int32_t alula_stack_compute_factor(void* self, double factor);
 
 #ifdef __cplusplus
 } /* extern "C" */

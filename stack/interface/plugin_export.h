@@ -270,6 +270,10 @@ std::int32_t Guarded(AlulaError* error, const Work& work) noexcept {
   return ALULA_FAILED;
 }
 
+inline std::int32_t SetComputeFactor(void* self, double factor) {
+  return static_cast<Exported*>(self)->stack->SetComputeFactor(factor) ? 1 : 0;
+}
+
 /// The table of functions around `kMake`.
 template <auto kMake>
 AlulaStackPlugin TableOf(const char* name) {
@@ -302,8 +306,11 @@ AlulaStackPlugin TableOf(const char* name) {
 
 /// Exports the stack that `maker` (a function, see the top of this file) makes. Once per library, outside of
 /// namespaces.
-#define ALULA_EXPORT_STACK(maker)                                                       \
-  extern "C" ALULA_STACK_EXPORT const AlulaStackPlugin* alula_stack_plugin(void) {      \
-    static const AlulaStackPlugin table = alula::stack::plugin::TableOf<maker>(#maker); \
-    return &table;                                                                      \
+#define ALULA_EXPORT_STACK(maker)                                                               \
+  extern "C" ALULA_STACK_EXPORT const AlulaStackPlugin* alula_stack_plugin(void) {              \
+    static const AlulaStackPlugin table = alula::stack::plugin::TableOf<maker>(#maker);         \
+    return &table;                                                                              \
+  }                                                                                             \
+  extern "C" ALULA_STACK_EXPORT int32_t alula_stack_compute_factor(void* self, double factor) { \
+    return alula::stack::plugin::SetComputeFactor(self, factor);                                \
   }

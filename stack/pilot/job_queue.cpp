@@ -55,7 +55,7 @@ bool JobQueue::Enqueue(const std::string& stage, const std::string& strand, base
   job->number = next_number_++;
   job->stage = stage;
   job->strand = strand;
-  job->due = now + latency;
+  job->due = Due(now, latency);
   job->work = std::move(work);
   job->join = std::move(join);
   pending_.emplace(std::make_pair(job->due, job->number), job);

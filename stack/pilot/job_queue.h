@@ -24,6 +24,7 @@ namespace alula::stack::pilot {
 /// - Jobs of one *strand* run one after another in the order of their numbers, so they may share mutable state that
 ///   nobody else touches. Jobs of different strands may run at once and may share only what is immutable.
 /// - Takeovers ("joins") run in the thread that calls Join, ordered by (due time, job number).
+/// - On a slower machine (Stretch) a declared latency is multiplied before it counts.
 /// - A *stage* has at most one job under way: a turn that comes before the last one was joined is skipped and counted.
 /// - An exception in a job is thrown by the Join that takes the job over.
 ///
@@ -48,6 +49,13 @@ class JobQueue {
         stage, strand, now, latency,
         [result, work = std::move(work)]() mutable { *result = std::make_unique<Result>(work()); },
         [result, join = std::move(join)]() mutable { join(std::move(**result)); });
+  }
+
+  /// A slower machine: latencies of jobs started from now on are multiplied by `factor`. Jobs under way keep theirs.
+  void Stretch(double factor) { factor_ = factor; }
+  /// When a job started at `now` is taken over.
+  base::Time Due(base::Time now, base::Duration latency) const {
+    return now + (factor_ == 1.0 ? latency : base::Seconds(factor_ * latency.Seconds()));
   }
 
   /// Takes over every job that is due at `now`, waiting for those that are still being computed. A join may start new
@@ -93,6 +101,7 @@ class JobQueue {
   };
   std::map<std::string, Spent> spent_;
   std::uint64_t next_number_ = 0;
+  double factor_ = 1.0;  // on latencies
 
   mutable std::mutex mutex_;  // guards what follows, and Job::finished
   std::condition_variable work_ready_;

@@ -133,6 +133,11 @@ class VisualInertialStack : public NavigationStack {
     return output;
   }
 
+  bool SetComputeFactor(double factor) override {
+    jobs_.Stretch(factor);
+    return true;
+  }
+
   std::vector<StageTime> Timing() const override {
     std::vector<StageTime> stages = jobs_.Timing();
     const auto part = [&](const char* name, double ms) {
@@ -201,7 +206,9 @@ class VisualInertialStack : public NavigationStack {
           [this, input = std::move(input)] {
             return OdometryOutput{workshop_.odometry.Process(input), workshop_.odometry.Timing()};
           },
-          [this, now, pair](OdometryOutput result) { OnFrame(now + config_.latency.odometry, *pair, result); });
+          [this, due = jobs_.Due(now, config_.latency.odometry), pair](OdometryOutput result) {
+            OnFrame(due, *pair, result);
+          });
       if (started) imu_.erase(imu_.begin(), imu_.begin() + static_cast<std::ptrdiff_t>(used));
       frames_.erase(frames_.begin());
     }

@@ -9,6 +9,7 @@
 
 #include "base/random.h"
 #include "tests/fuzz/dataset_entry.h"
+#include "tests/fuzz/faults_entry.h"
 #include "tests/fuzz/mesh_entry.h"
 #include "tests/fuzz/texture_entry.h"
 #include "tests/fuzz/yaml_entry.h"
@@ -27,6 +28,7 @@ struct Target {
 
 const Target kTargets[] = {
     {"yaml", &alula::fuzz::ReadYaml, nullptr, "[]{},:#&*!|>'\"%@`- \n\t019.eEkgm/\xc2\xb5\xff\\~?<"},
+    {"faults", &alula::fuzz::ReadFaults, nullptr, "[]{},:#*'\"%- \n\t019.eEkgmsHz"},
     {"mesh", &alula::fuzz::ReadMesh, nullptr, "[]{},:\"/-+ \n\r\\#0123456789.eEvtnf=A\xff\x7f\x80\x01"},
     {"texture", &alula::fuzz::ReadTexture, &alula::fuzz::MendChecksums, "\x01\x02\x03\x04\x08\x10\x7f\x80\xff IDAT"},
     {"dataset", &alula::fuzz::ReadDatasetFile, &alula::fuzz::MendChecksums,

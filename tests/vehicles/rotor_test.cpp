@@ -54,6 +54,24 @@ TEST(Rotor, StaticThrustAndTorqueFollowTheSquareOfSpeed) {
   }
 }
 
+TEST(Rotor, AFailingMotorGivesItsShareOfThrustAndTorqueAtEveryCommand) {
+  const RotorConfig c;
+  for (const double command : {0.3, 1.0}) {
+    for (const double share : {0.0, 0.25, 0.7, 1.0}) {
+      Rotor good(c, kDensity, 1), bad(c, kDensity, 1);
+      bad.Impair(share);
+      const RotorLoad whole = Settle(good, c, command), left = Settle(bad, c, command);
+      EXPECT_NEAR(left.force_B.z(), share * whole.force_B.z(), whole.force_B.z() * kExact);
+      EXPECT_NEAR(left.torque_B.z(), share * whole.torque_B.z(), std::abs(whole.torque_B.z()) * kExact);
+    }
+  }
+  Rotor rotor(c, kDensity, 1);
+  Settle(rotor, c, 0.5);
+  rotor.Impair(0.0);  // spins down with the motor's lag, not at once
+  rotor.Step(0.5, c.nominal_voltage, Vec3::Zero(), Vec3::Zero(), Milliseconds(1));
+  EXPECT_NEAR(rotor.speed(), 0.5 * c.maximum_speed * std::exp(-1e-3 / c.time_constant), c.maximum_speed * kExact);
+}
+
 TEST(Rotor, ThrustVanishesAtTheZeroThrustAdvanceRatioAndIsCappedInDescent) {
   const RotorConfig c;
   Rotor rotor(c, kDensity, 1);
@@ -110,6 +128,20 @@ TEST(Battery, SagSolvesTheCircuit) {
     EXPECT_NEAR(battery.voltage() * battery.current(), power, 1e-9);
     EXPECT_NEAR(battery.voltage() + c.internal_resistance * battery.current(), open, 1e-4);  // charge moved by one step
   }
+}
+
+TEST(Battery, ACollapsedPackSolvesTheCircuitOfWhatIsLeft) {
+  const BatteryConfig c;
+  Battery battery(c);
+  battery.Impair(4.0, 0.75);
+  battery.Step(300, Milliseconds(1));
+  const double open = 0.75 * c.cells * CellVoltage(battery.state_of_charge());
+  EXPECT_NEAR(battery.voltage() * battery.current(), 300 / c.drive_efficiency + c.avionics_power, 1e-9);
+  EXPECT_NEAR(battery.voltage() + 4 * c.internal_resistance * battery.current(), open, 1e-4);  // charge moved by a step
+  battery.Impair(1.0, 1.0);
+  battery.Step(300, Milliseconds(1));
+  EXPECT_NEAR(battery.voltage() + c.internal_resistance * battery.current(), c.cells * CellVoltage(c.initial_charge),
+              1e-3);  // mended
 }
 
 TEST(Battery, DrainsAsTheCurrentSays) {

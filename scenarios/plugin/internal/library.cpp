@@ -13,6 +13,7 @@ namespace alula::scenarios::plugin {
 namespace {
 
 constexpr const char* kSymbol = "alula_stack_plugin";
+constexpr const char* kFactorSymbol = "alula_stack_compute_factor";
 constexpr AlulaLayout kLayout = ALULA_LAYOUT;
 
 /// The loader's words for what went wrong last.
@@ -39,7 +40,7 @@ std::string Mismatch(const AlulaStackPlugin& table) {
   return {};
 }
 
-const AlulaStackPlugin& LoadLibrary(const std::filesystem::path& library, const base::Origin& origin) {
+Library LoadLibrary(const std::filesystem::path& library, const base::Origin& origin) {
   const auto fail = [&](const std::string& what) -> base::InputError {
     return {origin.where, origin.path.empty() ? "stack.library" : origin.path, "`" + library.string() + "` " + what};
   };
@@ -56,7 +57,8 @@ const AlulaStackPlugin& LoadLibrary(const std::filesystem::path& library, const 
   const AlulaStackPlugin* table = reinterpret_cast<decltype(&alula_stack_plugin)>(symbol)();
   if (table == nullptr) throw fail(std::string("returns nothing from `") + kSymbol + "`");
   if (const std::string wrong = Mismatch(*table); !wrong.empty()) throw fail(wrong);
-  return *table;
+  void* factor = ::dlsym(handle, kFactorSymbol);  // may be missing
+  return {*table, reinterpret_cast<decltype(&alula_stack_compute_factor)>(factor)};
 }
 
 }  // namespace alula::scenarios::plugin

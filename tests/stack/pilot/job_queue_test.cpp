@@ -33,6 +33,27 @@ TEST(JobQueue, JoinsExactlyAtTheDeclaredLatency) {
   }
 }
 
+TEST(JobQueue, ASlowerMachineStretchesWhatIsStartedFromThenOn) {
+  for (const int workers : {0, 2}) {
+    JobQueue jobs(workers);
+    std::string order;
+    const auto start = [&](const char* name, int latency) {
+      jobs.Start(
+          name, name, At(0), Milliseconds(latency), [] { return 0; }, [&order, name](int) { order += name; });
+    };
+    start("a", 40);
+    jobs.Stretch(2.5);
+    start("b", 20);
+    EXPECT_EQ(jobs.Due(At(0), Milliseconds(20)), At(50));
+    jobs.Stretch(1.0);
+    start("c", 45);
+    jobs.Join(At(49));
+    EXPECT_EQ(order, "ac");
+    jobs.Join(At(50));
+    EXPECT_EQ(order, "acb");
+  }
+}
+
 TEST(JobQueue, JoinsInOrderOfDueTimeThenNumber) {
   for (const int workers : {0, 1, 3}) {
     JobQueue jobs(workers);
