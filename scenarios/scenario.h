@@ -29,6 +29,7 @@
 #include "vehicles/prescribed.h"
 #include "vehicles/quadrotor.h"
 #include "worlds/courtyard.h"
+#include "worlds/maps/planning_map.h"
 #include "worlds/open_ground.h"
 #include "worlds/scene.h"
 
@@ -41,7 +42,8 @@ inline void Describe(base::Description&, None&) {}
 // What a scenario can be made of. These lists, the words for them in scenario.cpp and the makers in factories.cpp are
 // the one place that names concrete worlds, vehicles, autopilots, stacks and criteria. A world's config says its own
 // word (kType), and worlds::MakeWorld makes it: its entry here is all that it needs.
-using WorldConfig = std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig, worlds::SceneConfig>;
+using WorldConfig =
+    std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig, worlds::PlanningMapConfig, worlds::SceneConfig>;
 using VehicleConfig = std::variant<vehicles::QuadrotorConfig, vehicles::PrescribedConfig>;
 using AutopilotConfig = std::variant<None, vehicles::MulticopterAutopilotConfig>;
 using StackConfig =
