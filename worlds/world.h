@@ -9,6 +9,7 @@
 #include "base/frames.h"
 #include "geometry/material.h"
 #include "geometry/shape.h"
+#include "worlds/actors/actor.h"
 #include "worlds/lighting.h"
 #include "worlds/semantic_class.h"
 
@@ -25,12 +26,13 @@ struct Object {
   SemanticClass semantic = SemanticClass::kObstacle;
 };
 
-/// A square gate's opening: x along the direction of passage, z up, origin mid-opening.
+/// A square gate's opening: x along the direction of passage, z up, origin mid-opening; where it swings, as it rests.
 struct Gate {
   std::string name;
   base::Transform X_WG;
   double opening = 0.0;  // side, m
   double frame = 0.0;    // width of the bars, m
+  int actor = -1;        // index into World::actors of what swings it (a Swing); −1: it stands
 };
 
 /// A mean wind with first-order gusts on top (Gauss–Markov per axis).
@@ -55,7 +57,8 @@ struct World {
   std::string name;
   std::vector<geometry::Material> materials;
   std::vector<Object> objects;
-  std::vector<Gate> gates;  // in order of passage
+  std::vector<Gate> gates;    // in order of passage
+  std::vector<Actor> actors;  // what moves besides the vehicle
   Wind wind;
   Light light;
   base::Transform X_WB_start;  // of the ground point under the vehicle: z = height of the pad's surface

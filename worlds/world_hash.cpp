@@ -41,6 +41,49 @@ void Add(base::RollingHash& hash, const Lamp& lamp) {
   for (const double x : {lamp.cone, lamp.softness, lamp.intensity, lamp.range}) hash.Add(x);
 }
 
+void Add(base::RollingHash& hash, const std::vector<base::Vec3>& points) {
+  for (const base::Vec3& p : points) hash.Add(p);
+}
+void Add(base::RollingHash& hash, const Walk& m) {
+  Add(hash, m.route);
+  for (const double x : {m.start, m.speed, m.height}) hash.Add(x);
+  hash.Add(static_cast<std::uint64_t>(2 * m.closed + m.reactive));
+}
+void Add(base::RollingHash& hash, const Drive& m) {
+  Add(hash, m.waypoints);
+  for (const double x : {m.heading, m.start, m.speed, m.turn_radius, m.wheelbase, m.track, m.wheel_radius}) hash.Add(x);
+  hash.Add(m.half_width);
+  hash.Add(static_cast<std::uint64_t>(2 * m.closed + m.reactive));
+}
+void Add(base::RollingHash& hash, const Fly& m) {
+  Add(hash, m.waypoints);
+  for (const double x : {m.start, m.speed, m.turn_radius}) hash.Add(x);
+  hash.Add(static_cast<std::uint64_t>(2 * m.closed + m.reactive));
+}
+void Add(base::RollingHash& hash, const Swing& m) {
+  hash.Add(m.X_WH);
+  for (const double x : {m.amplitude, m.period, m.phase}) hash.Add(x);
+}
+void Add(base::RollingHash& hash, const Sway& m) {
+  for (const base::Transform& X_WR : m.X_WR) hash.Add(X_WR);
+  for (const double x : {m.stiffness_speed, m.frequency, m.damping}) hash.Add(x);
+}
+
+void Add(base::RollingHash& hash, const Actor& actor) {
+  hash.Add(std::string_view(actor.name));
+  for (const ActorLink& link : actor.links) {
+    hash.Add(std::string_view(link.name));
+    hash.Add(static_cast<std::uint64_t>(link.shape.index()));
+    std::visit([&hash](const auto& solid) { Add(hash, solid); }, link.shape);
+    hash.Add(link.X_JL);
+    for (const int i : {link.joint, link.material}) hash.Add(static_cast<std::int64_t>(i));
+    hash.Add(link.texture_scale);
+    hash.Add(static_cast<std::uint64_t>(2 * link.collides + link.casts_shadow));
+  }
+  hash.Add(static_cast<std::uint64_t>(actor.motion.index()));
+  std::visit([&hash](const auto& motion) { Add(hash, motion); }, actor.motion);
+}
+
 /// What most worlds lack enters under its name where it is there. Semantic classes do not: they label truth and change
 /// nothing that a vehicle meets.
 void AddExtras(base::RollingHash& hash, const World& world) {
@@ -57,6 +100,10 @@ void AddExtras(base::RollingHash& hash, const World& world) {
   for (const Lamp& lamp : world.light.lamps) {
     hash.Add(std::string_view("lamp"));
     Add(hash, lamp);
+  }
+  for (const Actor& actor : world.actors) {
+    hash.Add(std::string_view("actor"));
+    Add(hash, actor);
   }
   for (const geometry::Material& material : world.materials) {
     if (geometry::HasHoles(material)) hash.AddBytes(material.texture->alpha);
