@@ -19,14 +19,20 @@ struct Mover {
   geometry::Shape shape;
   geometry::Material material;
   worlds::SemanticClass semantic = worlds::SemanticClass::kVehicle;
+  bool of_vehicle = true;  // the vehicle's own, which View::draw_movers hides
+  bool casts_shadow = true;
+  double texture_scale = 1.0;  // m per texture period; a mesh has texture coordinates of its own
 };
+/// The links of the world's actors as movers, one actor after the other; world.materials must hold their materials.
+std::vector<Mover> MoversOf(const worlds::World& world);
 
 /// Where a camera is and how it sees: u = fx·x/z + cx, v = fy·y/z + cy, integer coordinates being pixel centres.
 /// Distortion is not applied: a view whose coefficients are not zero throws base::InputError.
 struct View {
   base::Transform X_WC;
   stack::CameraIntrinsics intrinsics;
-  bool draw_movers = true;  // false for a camera that sits inside the vehicle it belongs to: their shadows stay
+  bool draw_movers = true;  // false for a camera that sits inside the vehicle: its own movers are not drawn, their
+                            // shadows stay
   float brightness = 1.0F;  // exposure times gain over the nominal one: a factor on the signal of grey and colour
                             // pictures before it is rounded to eight bits and cut off at 255
   bool infrared = false;    // grey pictures by the materials' albedo in the near infrared

@@ -12,6 +12,7 @@
 #include "scenarios/end_of_stack.h"
 #include "scenarios/numeric_class.h"
 #include "scenarios/world_json.h"
+#include "sim/actor_recorder.h"
 #include "sim/faults/scope.h"
 #include "sim/interval_digests.h"
 #include "sim/run_folder.h"
@@ -24,7 +25,7 @@ constexpr const char* kVehicle = "vehicle0";
 /// Puts a run's files in place; what not every run leaves is named, so that none of an earlier run stays.
 void Commit(sim::RunFolder& folder) {
   folder.Commit({"map.bt", "video.mp4", "dataset", "crash.txt", "world.json", "timing.json", "truth.tum",
-                 "estimate.tum", "telemetry.csv", "digests.csv"});
+                 "estimate.tum", "telemetry.csv", "digests.csv", "actors.csv"});
 }
 
 /// All that a run is made of besides the simulation itself.
@@ -36,6 +37,7 @@ struct Cast {
   EndOfStack end_of_stack;
   std::unique_ptr<sim::RunFolder> folder;
   std::unique_ptr<sim::Recorder> recorder;
+  std::unique_ptr<sim::ActorRecorder> actors;  // null: the world has none
 };
 
 std::vector<base::Vec3> Waypoints(const MissionConfig& mission, const base::Transform& X_WB) {
@@ -81,6 +83,7 @@ sim::SimulationParts MakeParts(const Scenario& scenario, const RunOptions& optio
         movers.push_back({part.name, part.shape, part.material});
       }
     }
+    for (render::Mover& mover : render::MoversOf(*parts.world)) movers.push_back(std::move(mover));
     parts.renderer = render::MakeRenderer(options.render, *parts.world, movers);
   }
   return parts;
@@ -98,6 +101,11 @@ void Assemble(const Scenario& scenario, const RunOptions& options, sim::Simulati
   if (cast.folder) {
     cast.recorder = std::make_unique<sim::Recorder>(scenario.config.recorder, *cast.folder);
     parts.observers.push_back(cast.recorder.get());
+    if (!parts.world->actors.empty()) {
+      cast.actors =
+          std::make_unique<sim::ActorRecorder>(scenario.config.recorder.actors_rate, *parts.world, *cast.folder);
+      parts.observers.push_back(cast.actors.get());
+    }
   }
   const Stage stage{*parts.world, parts.vehicle->body(), cast.calibration, options.render,
                     cast.folder ? cast.folder->PathOf("") : std::filesystem::path()};
@@ -163,6 +171,7 @@ void WriteFolder(const Scenario& scenario, const worlds::World& world, const Ver
   cast.recorder->AddEvent(end, "run", "end",
                           verdict.message.empty() ? verdict.reason : verdict.reason + ": " + verdict.message);
   cast.recorder->Finish();
+  if (cast.actors) cast.actors->Finish();
   for (const stack::StackFile& file : files) cast.folder->Write(file.name, file.bytes);  // first: ours stand
   cast.folder->Write("scenario.yaml", base::DumpConfig(scenario.config));
   cast.folder->Write("world.json", WorldToJson(world));

@@ -52,6 +52,17 @@ std::string WorldToJson(const worlds::World& world) {
                                {"collides", object.collides},
                                {"shape", std::visit([](const auto& s) { return Shape(s); }, object.shape)}});
   }
+  if (world.actors.empty()) return json.dump(1) + "\n";
+  json["actors"] = Json::array();
+  for (const worlds::Actor& actor : world.actors) {
+    Json links = Json::array();
+    for (const worlds::ActorLink& link : actor.links) {
+      if (!link.collides) continue;
+      links.push_back({{"name", actor.name + "/" + link.name},
+                       {"shape", std::visit([](const auto& s) { return Shape(s); }, link.shape)}});
+    }
+    json["actors"].push_back({{"name", actor.name}, {"class", worlds::NameOf(actor.semantic)}, {"links", links}});
+  }
   return json.dump(1) + "\n";
 }
 

@@ -10,6 +10,7 @@
 #include "stack/interface/measurement.h"
 #include "stack/interface/navigation_stack.h"
 #include "vehicles/vehicle.h"
+#include "worlds/actors/actor_simulation.h"
 #include "worlds/world.h"
 
 namespace alula::sim {
@@ -29,6 +30,7 @@ struct StepView {
   const vehicles::VehicleModel& vehicle;
   const vehicles::Autopilot* autopilot = nullptr;
   const worlds::World& world;
+  const worlds::ActorSimulation& actors;              // known up to the step's end
   ImuBias imu_bias;                                   // true, of the stack's IMU; zero where there is none
   std::span<const stack::StackEvent> fault_events{};  // faults of the scenario that began or ended at its begin
 };

@@ -8,17 +8,16 @@
 #include <string>
 
 #include "base/error.h"
+#include "sim/internal/bullet_actors.h"
 #include "sim/internal/bullet_shapes.h"
 
 namespace alula::sim {
 namespace {
 
 using internal::FromBullet;
+using internal::kVehicleGroup;
+using internal::kWorldGroup;
 using internal::ToBullet;
-
-/// Groups that let a prescribed (kinematic) vehicle meet static objects, which Bullet's defaults do not.
-constexpr int kVehicleGroup = 1;
-constexpr int kWorldGroup = 2;
 
 struct PrincipalAxes {
   base::Quat q_BP = base::Quat::Identity();
@@ -76,6 +75,9 @@ struct PhysicsWorld::Impl {
   btSequentialImpulseConstraintSolver solver;
   btDiscreteDynamicsWorld world{&dispatcher, &broadphase, &solver, &configuration};
 
+  std::unique_ptr<internal::BulletActors> actors;  // null: there are none
+  double hull_radius = 0.0;
+
   base::Transform X_PB;
   base::Vec3 moments = base::Vec3::Ones();
   vehicles::BodyState state;
@@ -100,6 +102,10 @@ struct PhysicsWorld::Impl {
   void EndRotation(const Spin& spin);
   void ReadState();
   void ReadContacts();
+  std::string_view NameOf(const btCollisionObject& object) const {
+    const auto number = static_cast<std::size_t>(object.getUserIndex());
+    return number < objects.size() ? std::string_view(objects[number].name) : actors->NameOf(object);
+  }
 };
 
 void PhysicsWorld::Impl::AddObjects(const worlds::World& description, const SurfaceConfig& surface) {
@@ -200,7 +206,7 @@ void PhysicsWorld::Impl::ReadContacts() {
       if (point.getDistance() > 0.0) continue;
       const int child = vehicle_first ? point.m_index0 : point.m_index1;
       const CollidingPart& part = parts[child >= 0 && child < static_cast<int>(parts.size()) ? child : 0];
-      contacts.push_back({part.name, objects[other->getUserIndex()].name, part.may_touch,
+      contacts.push_back({part.name, NameOf(*other), part.may_touch,
                           FromBullet(vehicle_first ? point.getPositionWorldOnB() : point.getPositionWorldOnA()),
                           point.getDistance()});
     }
@@ -221,12 +227,23 @@ PhysicsWorld::PhysicsWorld(const worlds::World& world, const vehicles::VehicleBo
   m.world.getSolverInfo().m_linearSlop = 1e-4;
   m.AddObjects(world, surface);
   m.AddVehicle(body, start, surface);
+  m.hull_radius = body.hull_radius;
+  if (!world.actors.empty()) {
+    m.actors = std::make_unique<internal::BulletActors>(world, surface, static_cast<int>(m.objects.size()), m.store);
+  }
   DetectContacts();
 }
 
 PhysicsWorld::~PhysicsWorld() {
   impl_->world.removeRigidBody(impl_->vehicle.get());
+  if (impl_->actors) impl_->actors->RemoveAll(impl_->world);
   for (auto& object : impl_->objects) impl_->world.removeCollisionObject(object.collision.get());
+}
+
+void PhysicsWorld::MoveActors(const worlds::ActorSimulation& actors, base::Time t) {
+  constexpr double kNear = 1.0;  // m
+  Impl& m = *impl_;
+  if (m.actors) m.actors->Move(m.world, actors, t, m.state.X_WB.p, m.hull_radius + kNear);
 }
 
 void PhysicsWorld::Step(const vehicles::Wrench& wrench, base::Duration dt) {
@@ -269,6 +286,22 @@ Clearance PhysicsWorld::HullClearance(double reach, std::span<const std::string_
       if (d < best.distance) best = {d, part.name, object.name};
     }
   }
+  if (!m.actors) return best;
+  for (const auto& link : m.actors->Within(m.state.X_WB.p, m.hull_radius + std::max(best.distance, 0.0))) {
+    const std::string_view name = m.actors->NameOf(*link.body);
+    if (std::find(except.begin(), except.end(), name) != except.end()) continue;
+    btVector3 link_low, link_high;
+    link.body->getCollisionShape()->getAabb(link.body->getWorldTransform(), link_low, link_high);
+    for (const Impl::HullPart& part : m.hull) {
+      const btTransform X_WH = X_WB * part.X_BH;
+      btVector3 low, high;
+      part.shape->getAabb(X_WH, low, high);
+      if (BoxDistance(low, high, link_low, link_high) >= best.distance) continue;
+      const double d = internal::Distance(*part.shape, X_WH, *link.body->getCollisionShape(),
+                                          link.body->getWorldTransform(), std::max(best.distance, 0.0));
+      if (d < best.distance) best = {d, part.name, name};
+    }
+  }
   return best;
 }
 
@@ -279,10 +312,17 @@ std::optional<RayHit> PhysicsWorld::CastRay(const base::Vec3& from_W, const base
   hit.m_collisionFilterGroup = kVehicleGroup;  // sees what the vehicle can meet: the world
   hit.m_collisionFilterMask = kWorldGroup;
   impl_->world.rayTest(from, to, hit);
+  if (impl_->actors) {
+    const btTransform X_from(btQuaternion::getIdentity(), from), X_to(btQuaternion::getIdentity(), to);
+    for (const auto& link : impl_->actors->Within(0.5 * (from_W + to_W), 0.5 * (to_W - from_W).norm())) {
+      if (link.present) continue;
+      auto* body = const_cast<btRigidBody*>(link.body);  // a ray changes nothing; Bullet's signature forgot
+      btCollisionWorld::rayTestSingle(X_from, X_to, body, body->getCollisionShape(), body->getWorldTransform(), hit);
+    }
+  }
   if (!hit.hasHit()) return std::nullopt;
   const base::Vec3 point = FromBullet(hit.m_hitPointWorld);
-  return RayHit{hit.m_closestHitFraction * (to_W - from_W).norm(), point,
-                impl_->objects[hit.m_collisionObject->getUserIndex()].name};
+  return RayHit{hit.m_closestHitFraction * (to_W - from_W).norm(), point, impl_->NameOf(*hit.m_collisionObject)};
 }
 
 }  // namespace alula::sim

@@ -9,6 +9,7 @@
 #include "base/frames.h"
 #include "base/time.h"
 #include "vehicles/vehicle.h"
+#include "worlds/actors/actor_simulation.h"
 #include "worlds/world.h"
 
 namespace alula::sim {
@@ -42,7 +43,7 @@ struct SurfaceConfig {
   double restitution = 0.1;
 };
 
-/// The rigid-body world: one vehicle among static objects, in Bullet with double precision.
+/// The rigid-body world: one vehicle among static objects and actors, in Bullet with double precision.
 ///
 /// One `Step`: the wrench and gravity act at the centre of mass for dt, contacts are solved, the body moves
 /// (semi-implicit Euler). The gyroscopic term is not Bullet's. With J(R) = R I Rᵀ and L = J(R_k) ω_k,
@@ -50,6 +51,9 @@ struct SurfaceConfig {
 ///   Bullet: ω' = ω_½ + torques and contact impulses, R_{k+1} = Exp(dt ω') R_k
 ///   ω_{k+1} = J(R_{k+1})⁻¹ (L + J(R_k) (ω' − ω_½))
 /// so that free rotation keeps the angular momentum to rounding and its energy to second order.
+///
+/// Actors are kinematic: they push and are not pushed, with the velocity of their links. Only those within 1 m of the
+/// hull are in Bullet's world; clearance and rays see all of them.
 ///
 /// Deterministic: fixed order of bodies, ordered overlapping pairs, no deactivation.
 class PhysicsWorld {
@@ -61,6 +65,9 @@ class PhysicsWorld {
   PhysicsWorld(const PhysicsWorld&) = delete;
   PhysicsWorld& operator=(const PhysicsWorld&) = delete;
 
+  /// Puts the actors of the world where they are at t. `actors` must outlive this world; call it before the step or
+  /// the move that ends at t. Without a call they are not there.
+  void MoveActors(const worlds::ActorSimulation& actors, base::Time t);
   /// Advances by dt (one Bullet step) under a wrench about the centre of mass, world axes; gravity is added here.
   void Step(const vehicles::Wrench& wrench, base::Duration dt);
   /// Puts a prescribed vehicle at a state and reads what it touches.

@@ -66,6 +66,7 @@ void Describe(base::Description& d, RecorderConfig& c) {
   d.Field("truth_rate", c.truth_rate, {.unit = "Hz", .meaning = "lines of truth.tum"});
   d.Field("estimate_rate", c.estimate_rate, {.unit = "Hz", .meaning = "lines of estimate.tum, at most"});
   d.Field("telemetry_rate", c.telemetry_rate, {.unit = "Hz", .meaning = "lines of telemetry.csv"});
+  d.Field("actors_rate", c.actors_rate, {.unit = "Hz", .meaning = "poses of each moving actor in actors.csv"});
   d.Field("digest_interval", c.digest_interval,
           {.unit = "s", .meaning = "simulated time from one line of digests.csv to the next", .min = 1e-3});
 }

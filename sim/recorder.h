@@ -16,6 +16,7 @@ struct RecorderConfig {
   base::Rate truth_rate{100, 1};
   base::Rate estimate_rate{100, 1};  // at most; a slower stack is recorded as it publishes
   base::Rate telemetry_rate{50, 1};
+  base::Rate actors_rate{10, 1};
   base::Duration digest_interval = base::Seconds(1.0);  // of digests.csv
 };
 void Describe(base::Description& d, RecorderConfig& c);

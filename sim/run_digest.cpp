@@ -40,7 +40,8 @@ struct HashSink {
 
 void RunDigest::Add(const StepView& step) {
   HashSink sink{*this};
-  VisitRun(StepRecords{step.truth.at_end, step.measurements, step.output, step.fault_events}, sink);
+  const std::vector<base::Transform> roots = step.actors.RootsOfTick(step.truth.begin, step.time);
+  VisitRun(StepRecords{step.truth.at_end, step.measurements, step.output, step.fault_events, roots}, sink);
 }
 
 std::string RunDigest::Hex() const {

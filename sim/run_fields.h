@@ -22,6 +22,7 @@ struct StepRecords {
   std::span<const stack::Measurement> measurements;
   const stack::StackOutput* output = nullptr;  // null where no stack flies
   std::span<const stack::StackEvent> fault_events{};
+  std::span<const base::Transform> X_WR{};  // roots of the world's actors, where they began a tick in this step
 };
 
 /// What sets a record apart from others of its stream; kind is empty where all are alike.
@@ -194,6 +195,7 @@ void VisitRun(const StepRecords& step, Sink& sink) {
   f("X_WB", step.truth.X_WB);
   f("v_WB", step.truth.v_WB);
   f("w_B", step.truth.w_B);
+  for (const base::Transform& X_WR : step.X_WR) f("X_WR", X_WR);
 }
 
 }  // namespace alula::sim

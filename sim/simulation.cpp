@@ -1,5 +1,6 @@
 #include "sim/simulation.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <exception>
@@ -52,14 +53,19 @@ void Describe(base::Description& d, SimulationConfig& c) {
 
 Simulation::Simulation(SimulationParts parts)
     : parts_(std::move(parts)),
+      actors_(*parts_.world, parts_.seed),
       physics_(std::make_unique<PhysicsWorld>(*parts_.world, parts_.vehicle->body(), StartState(parts_),
                                               parts_.config.surface)),
       sensors_(parts_.sensors, parts_.vehicle->body(), parts_.config.step, parts_.seed, parts_.vehicle_id,
-               parts_.renderer.get(), parts_.workers, parts_.world->light),
+               parts_.renderer.get(), parts_.workers, parts_.world->light, &actors_),
       autopilot_imu_(parts_.autopilot_sensors.imu, parts_.config.step, parts_.seed,
                      parts_.vehicle_id + "/autopilot.imu"),
       autopilot_barometer_(parts_.autopilot_sensors.barometer, parts_.seed, parts_.vehicle_id + "/autopilot.barometer"),
       wind_(parts_.world->wind, parts_.seed) {
+  if (!actors_.empty()) {
+    physics_->MoveActors(actors_, {0});
+    physics_->DetectContacts();
+  }
   truth_ = {{0}, {0}, physics_->state(), physics_->state()};
   sensors_.Settle(truth_.at_end);
   autopilot_imu_.Settle(truth_.at_end);
@@ -92,7 +98,7 @@ std::optional<std::string> Simulation::Step() {
 void Simulation::StepFaults() {
   const worlds::World& world = *parts_.world;
   if (static_cast<std::size_t>(gates_passed_) < world.gates.size()) {
-    const auto crossing = CrossingOf(world.gates[static_cast<std::size_t>(gates_passed_)], truth_);
+    const auto crossing = CrossingOf(world.gates[static_cast<std::size_t>(gates_passed_)], actors_, truth_);
     if (crossing && crossing->forward) ++gates_passed_;
   }
   const vehicles::BodyState& now = truth_.at_end;
@@ -169,6 +175,7 @@ void Simulation::StepBody() {
   wind_W_ = wind_.At(before.X_WB.p, dt);
   const vehicles::Wrench wrench = parts_.vehicle->Step(before, autopilot_output_.actuators, wind_W_, dt);
   Lap(kVehicle);
+  MoveActors(before, wrench);
   if (parts_.vehicle->body().prescribed) {
     physics_->MovePrescribed(parts_.vehicle->Prescribed(time_ + dt));
   } else {
@@ -184,6 +191,15 @@ void Simulation::StepBody() {
   Lap(kSensors);
 }
 
+void Simulation::MoveActors(const vehicles::BodyState& vehicle, const vehicles::Wrench& wrench) {
+  if (actors_.empty()) return;
+  const double thrust = wrench.force_W.dot(vehicle.X_WB.q * base::Vec3::UnitZ());
+  const base::Time end = time_ + parts_.config.step;
+  actors_.Advance(end,
+                  {vehicle.X_WB.p, vehicle.v_WB, parts_.vehicle->body().hull_radius, std::max(thrust, 0.0), wind_W_});
+  physics_->MoveActors(actors_, end);
+}
+
 std::optional<std::string> Simulation::StepObservers() {
   const StepView view{.time = time_,
                       .truth = truth_,
@@ -197,6 +213,7 @@ std::optional<std::string> Simulation::StepObservers() {
                       .vehicle = *parts_.vehicle,
                       .autopilot = parts_.autopilot.get(),
                       .world = *parts_.world,
+                      .actors = actors_,
                       .imu_bias = sensors_.imu_bias(),
                       .fault_events = injector_ ? injector_->events() : std::span<const stack::StackEvent>()};
   std::optional<std::string> reason;

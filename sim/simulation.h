@@ -15,6 +15,7 @@
 #include "sim/physics_world.h"
 #include "sim/sensors/suite.h"
 #include "sim/truth.h"
+#include "worlds/actors/actor_simulation.h"
 #include "worlds/wind.h"
 
 namespace alula::sim {
@@ -53,8 +54,9 @@ struct SimulationParts {
 ///   4. commands and estimate reach the autopilot (or a gimbal) once the link delay has passed
 ///   5. autopilot.Step(t, its own sensors)                       → motor commands
 ///   6. vehicle.Step(state at t, wind)                           → force and torque
-///   7. Bullet steps to t + dt (a prescribed vehicle is put where it is then); contacts are read
-///   8. observers look at the step; one may end the run with a named reason
+///   7. actors move to t + dt, heeding the true state at t
+///   8. Bullet steps to t + dt (a prescribed vehicle is put where it is then); contacts are read
+///   9. observers look at the step; one may end the run with a named reason
 ///
 /// Deterministic: everything follows from the parts and the seed.
 class Simulation {
@@ -70,6 +72,7 @@ class Simulation {
   base::Time time() const { return time_; }
   const TruthWindow& truth() const { return truth_; }
   const PhysicsWorld& physics() const { return *physics_; }
+  const worlds::ActorSimulation& actors() const { return actors_; }
   /// Wall time by stage in ms, the stack's own stages included ("stack/…").
   std::vector<stack::StageTime> Timing() const;
   /// What the stack leaves behind; none without a stack. Throws base::FaultError: "stack_exception".
@@ -88,10 +91,12 @@ class Simulation {
   void StepLink();
   void StepAutopilot();
   void StepBody();
+  void MoveActors(const vehicles::BodyState& vehicle, const vehicles::Wrench& wrench);
   std::optional<std::string> StepObservers();
   void Lap(Stage stage);
 
   SimulationParts parts_;
+  worlds::ActorSimulation actors_;
   std::unique_ptr<PhysicsWorld> physics_;
   std::unique_ptr<faults::Injector> injector_;  // null: nothing goes wrong
   faults::AutopilotSensorLine autopilot_line_;

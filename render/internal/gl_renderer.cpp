@@ -184,7 +184,7 @@ void GlRenderer::DrawSurfaces(const View& view, const Programs& programs, Textur
     scene_->Bind(*program);
     program->Set("clip_from_world", clip_from_world);
     program->Set("brightness", view.brightness);
-    if (view.draw_movers) DrawMovers(view, *program, kind, holes);
+    DrawMovers(view, *program, kind, holes);
     program->SetAffine("world_from_model", base::Transform{});
     scene_->Draw(Those(runs, holes), kind);
   }
@@ -197,7 +197,7 @@ double GlRenderer::FocalFor(const View& view) const {
 void GlRenderer::DrawMovers(const View& view, const GlProgram& program, TextureKind kind, bool holes) {
   const std::vector<Batch>& movers = geometry_->movers;
   for (std::size_t i = 0; i < movers.size(); ++i) {
-    if (movers[i].holes != holes) continue;
+    if (movers[i].holes != holes || (movers[i].of_vehicle && !view.draw_movers)) continue;
     // Planes in the mover's own frame, where its box is: columns of the clip matrix times X_WM.
     Eigen::Matrix4d world_from_mover = Eigen::Matrix4d::Identity();
     world_from_mover.topLeftCorner<3, 3>() = X_WM_[i].R();
@@ -233,8 +233,9 @@ void GlRenderer::DrawInstances(const View& view) {
     scene_->Bind(*program);
     program->Set("clip_from_world", clip_from_world);
     program->Set("camera_from_world", view.X_WC.Inverse().R());
-    for (std::size_t i = 0; view.draw_movers && i < movers.size(); ++i) {
-      if (movers[i].holes == holes) draw(*program, movers[i], statics.size() + i + 1, X_WM_[i]);
+    for (std::size_t i = 0; i < movers.size(); ++i) {
+      const bool drawn = view.draw_movers || !movers[i].of_vehicle;
+      if (drawn && movers[i].holes == holes) draw(*program, movers[i], statics.size() + i + 1, X_WM_[i]);
     }
     for (const std::uint32_t i : order) {
       if (statics[i].holes == holes) draw(*program, statics[i], i + 1, {});

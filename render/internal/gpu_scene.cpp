@@ -142,6 +142,7 @@ void GpuScene::PlaceShadows(std::span<const base::Transform> X_WM) {
   shadow_regions_.clear();
   gl.BindVertexArray(vertex_array_);
   for (std::size_t i = 0; i < X_WM.size(); ++i) {
+    if (!geometry_->movers[i].casts_shadow) continue;
     Eigen::Matrix4d world_from_mover = Eigen::Matrix4d::Identity();
     world_from_mover.topLeftCorner<3, 3>() = X_WM[i].R();
     world_from_mover.topRightCorner<3, 1>() = X_WM[i].p;

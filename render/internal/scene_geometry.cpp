@@ -49,6 +49,18 @@ Batch Append(SceneGeometry& scene, const std::vector<DetailLevel>& levels, const
   return batch;
 }
 
+/// Index of a mover's material among those of the movers before it (from `first` on); added where none is alike.
+int MaterialOf(SceneGeometry& scene, std::size_t first, const geometry::Material& wanted) {
+  for (std::size_t i = first; i < scene.materials.size(); ++i) {
+    const geometry::Material& m = scene.materials[i];
+    if (m.texture == wanted.texture && m.colour == wanted.colour && m.infrared == wanted.infrared) {
+      return static_cast<int>(i);
+    }
+  }
+  scene.materials.push_back(wanted);
+  return static_cast<int>(scene.materials.size()) - 1;
+}
+
 }  // namespace
 
 SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> movers) {
@@ -67,9 +79,10 @@ SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> move
     scene.statics.push_back(batch);
   }
   for (const Mover& mover : movers) {
-    const int material = static_cast<int>(scene.materials.size());
-    scene.materials.push_back(mover.material);
-    scene.movers.push_back(Append(scene, DetailLevels(mover.shape, 1.0), base::Transform{}, material));
+    const int material = MaterialOf(scene, world.materials.size(), mover.material);
+    scene.movers.push_back(Append(scene, DetailLevels(mover.shape, mover.texture_scale), base::Transform{}, material));
+    scene.movers.back().of_vehicle = mover.of_vehicle;
+    scene.movers.back().casts_shadow = mover.casts_shadow;
   }
   scene.classes = ClassesOf(world, movers);
   scene.light = world.light;

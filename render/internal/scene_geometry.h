@@ -28,6 +28,8 @@ struct Level {
 struct Batch {
   int material = 0;
   bool holes = false;  // its texture has some
+  bool of_vehicle = false;
+  bool casts_shadow = true;
   std::array<Level, kMostLevels> levels;
   int level_count = 0;
   Eigen::Vector3f low = Eigen::Vector3f::Zero();
@@ -41,7 +43,7 @@ struct SceneGeometry {
   std::vector<std::uint32_t> indices;             // three a triangle, into `vertices`
   std::vector<Batch> statics;                     // one an object of the world
   std::vector<Batch> movers;                      // one a mover, in their order
-  std::vector<geometry::Material> materials;      // the world's, then one a mover
+  std::vector<geometry::Material> materials;      // the world's, then the movers'
   Eigen::Vector3f low = Eigen::Vector3f::Zero();  // of all statics, m
   Eigen::Vector3f high = Eigen::Vector3f::Zero();
   std::vector<worlds::SemanticClass> classes;  // by instance

@@ -99,8 +99,8 @@ Target RasterRenderer::DrawView(const View& view, bool with_ids) {
   const double focal = std::max(view.intrinsics.fx, view.intrinsics.fy);
   const std::span<const internal::Batch> boxes(boxes_);
   const std::size_t statics = scene_->geometry().statics.size();
-  const std::size_t drawn = view.draw_movers ? boxes.size() : statics;
-  for (const std::uint32_t number : internal::VisibleOrder(boxes.first(drawn), &frustum, view.X_WC.p)) {
+  for (const std::uint32_t number : internal::VisibleOrder(boxes, &frustum, view.X_WC.p)) {
+    if (!view.draw_movers && boxes[number].of_vehicle) continue;
     if (IsHidden(boxes[number], m, target)) continue;
     if (number < statics) {
       DrawLevel(boxes[number], internal::LevelFor(boxes[number], eye_W, focal), m, target);

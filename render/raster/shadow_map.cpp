@@ -160,6 +160,7 @@ const ShadowMap& MoverShadows::Place(const internal::SceneGeometry& scene, const
   regions_.clear();
   for (std::size_t i = 0; i < X_WM.size(); ++i) {
     const internal::Batch& mover = scene.movers[i];
+    if (!mover.casts_shadow) continue;
     Eigen::Matrix4d texture_from_mover = Eigen::Matrix4d::Identity();
     texture_from_mover.topLeftCorner<3, 3>() = X_WM[i].R();
     texture_from_mover.topRightCorner<3, 1>() = X_WM[i].p;

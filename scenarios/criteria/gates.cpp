@@ -11,13 +11,14 @@ namespace alula::scenarios {
 namespace {
 
 std::optional<GatePassage> Crossing(const worlds::Gate& gate, const sim::StepView& step) {
-  const std::optional<sim::GateCrossing> crossing = sim::CrossingOf(gate, step.truth);
+  const std::optional<sim::GateCrossing> crossing = sim::CrossingOf(gate, step.actors, step.truth);
   if (!crossing) return std::nullopt;
   const base::Vec3& p_GB = crossing->p_GB;
   const double half = 0.5 * gate.opening;
 
   GatePassage passage{.time = step.time, .forward = crossing->forward, .speed = step.truth.at_end.v_WB.norm()};
-  const base::Quat q_BG = step.truth.at_end.X_WB.q.conjugate() * gate.X_WG.q;
+  const base::Transform X_WG = step.actors.GatePose(gate, step.time);
+  const base::Quat q_BG = step.truth.at_end.X_WB.q.conjugate() * X_WG.q;
   passage.margin = std::numeric_limits<double>::infinity();
   for (int axis = 1; axis < 3; ++axis) {
     for (const double sign : {-1.0, 1.0}) {

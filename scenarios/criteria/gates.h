@@ -8,7 +8,7 @@
 
 namespace alula::scenarios {
 
-/// A crossing of a gate's plane by the body origin inside the opening.
+/// A crossing of a gate's plane by the body origin inside the opening, where the gate is at that time.
 struct GatePassage {
   int gate = 0;
   base::Time time;

@@ -90,7 +90,8 @@ KeptStep Keep(const sim::StepView& step, std::int64_t number) {
                 step.truth.at_end,
                 {step.measurements.begin(), step.measurements.end()},
                 std::nullopt,
-                {step.fault_events.begin(), step.fault_events.end()}};
+                {step.fault_events.begin(), step.fault_events.end()},
+                step.actors.RootsOfTick(step.truth.begin, step.time)};
   if (step.output != nullptr) {
     kept.output.emplace();
     kept.output->commands = step.output->commands;
@@ -114,8 +115,9 @@ SensorNames NamesOf(const stack::Calibration& calibration) {
 
 std::vector<Record> NameRecords(const KeptStep& step, const SensorNames& sensors) {
   NameSink sink{sensors, {}};
-  sim::VisitRun(
-      sim::StepRecords{step.truth, step.measurements, step.output ? &*step.output : nullptr, step.fault_events}, sink);
+  sim::VisitRun(sim::StepRecords{step.truth, step.measurements, step.output ? &*step.output : nullptr,
+                                 step.fault_events, step.X_WR},
+                sink);
   return std::move(sink.records);
 }
 

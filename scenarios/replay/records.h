@@ -22,6 +22,7 @@ struct KeptStep {
   std::vector<stack::Measurement> measurements;
   std::optional<stack::StackOutput> output{};  // without what it shows of itself
   std::vector<stack::StackEvent> fault_events{};
+  std::vector<base::Transform> X_WR{};  // as sim::StepRecords has them
 };
 KeptStep Keep(const sim::StepView& step, std::int64_t number);
 

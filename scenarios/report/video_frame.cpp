@@ -43,11 +43,16 @@ void Write(cv::Mat& image, const std::string& text, int x, int y, double size, c
   cv::putText(image, text, {x, y}, cv::FONT_HERSHEY_SIMPLEX, size, colour, 1, cv::LINE_AA);
 }
 
+std::vector<render::Mover> WithActors(std::vector<render::Mover> movers, const worlds::World& world) {
+  for (render::Mover& mover : render::MoversOf(world)) movers.push_back(std::move(mover));
+  return movers;
+}
+
 }  // namespace
 
 VideoComposer::VideoComposer(std::string_view maker, const worlds::World& world, std::vector<render::Mover> movers,
                              std::vector<base::Transform> X_BM, std::string title)
-    : renderer_(render::MakeRenderer(maker, world, movers)),
+    : renderer_(render::MakeRenderer(maker, world, WithActors(std::move(movers), world))),
       X_BM_(std::move(X_BM)),
       title_(std::move(title)),
       chase_(world.bounds_low, world.bounds_high),
@@ -67,6 +72,7 @@ const Canvas& VideoComposer::Compose(const VideoMoment& moment, base::Duration d
 void VideoComposer::DrawChase(const VideoMoment& moment, base::Duration dt) {
   std::vector<base::Transform> X_WM;
   for (const base::Transform& X_BM : X_BM_) X_WM.push_back(moment.X_WB * X_BM);
+  X_WM.insert(X_WM.end(), moment.X_WL.begin(), moment.X_WL.end());
   renderer_->PlaceMovers(X_WM);
   render::View view;
   view.X_WC = chase_.Follow(moment.X_WB, dt);

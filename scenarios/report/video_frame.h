@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/frames.h"
 #include "base/time.h"
@@ -21,6 +22,7 @@ struct VideoMoment {
   base::Time time;
   base::Transform X_WB;
   base::Vec3 v_WB = base::Vec3::Zero();
+  std::vector<base::Transform> X_WL;             // of the links of the world's actors
   std::optional<base::Transform> X_MB;           // published estimate
   std::optional<stack::Image> left;              // last image of the left camera
   std::shared_ptr<const stack::StackView> view;  // what the stack shows; may be null
@@ -36,7 +38,7 @@ class VideoComposer {
   static constexpr int kWidth = 1280;
   static constexpr int kHeight = 720;
 
-  /// `movers`: the vehicle's parts with their poses in the body, drawn in the chase view.
+  /// `movers`: the vehicle's parts with their poses in the body, drawn in the chase view; the world's actors follow.
   VideoComposer(std::string_view maker, const worlds::World& world, std::vector<render::Mover> movers,
                 std::vector<base::Transform> X_BM, std::string title);
 

@@ -62,6 +62,7 @@ std::optional<std::string> VideoRecorder::Observe(const sim::StepView& step) {
   if (step.time < kPictureRate.SampleTime(pictures_)) return std::nullopt;
   moment_.time = step.time;
   moment_.X_WB = step.truth.at_end.X_WB;
+  moment_.X_WL = step.actors.LinkPoses(step.time);
   moment_.v_WB = step.truth.at_end.v_WB;
   const base::Duration dt = kPictureRate.SampleTime(pictures_ + 1) - kPictureRate.SampleTime(pictures_);
   writer_.Add(composer_.Compose(moment_, dt).rgb);

@@ -122,10 +122,12 @@ void AddCameras(const CamerasConfig& config, const std::string& vehicle, stack::
 
 CameraSuite::CameraSuite(const CamerasConfig& config, const stack::Calibration& calibration, std::uint64_t seed,
                          std::vector<base::Transform> X_BP, const worlds::Light& light,
-                         std::vector<render::CameraRenderer*> renderers, bool threads)
+                         std::vector<render::CameraRenderer*> renderers, bool threads,
+                         const worlds::ActorSimulation* actors)
     : seed_(seed),
       X_BP_(std::move(X_BP)),
       light_(light),
+      actors_(actors != nullptr && !actors->empty() ? actors : nullptr),
       gimbal_configs_(config.gimbals),
       gimbal_calibrations_(calibration.gimbals),
       darkroom_(std::move(renderers), threads) {
@@ -185,9 +187,13 @@ void CameraSuite::AddUnit(const CameraConfig& config, const stack::CameraCalibra
 
 void CameraSuite::AddDepthUnit(const RgbdCameraConfig& config, const stack::CameraCalibration& calibration) {
   const Unit& colour = units_.back();
-  DepthOptics optics{config.depth,     DepthIntrinsicsOf(config.depth),
-                     std::nullopt,     DepthPoseInColour(config.depth),
-                     calibration.name, seed_};
+  DepthOptics optics{config.depth,
+                     DepthIntrinsicsOf(config.depth),
+                     std::nullopt,
+                     DepthPoseInColour(config.depth),
+                     calibration.name,
+                     seed_,
+                     X_BP_};
   if (config.depth.registered) optics.registered = calibration.intrinsics;
   const auto shared = std::make_shared<const DepthOptics>(std::move(optics));
   Unit unit = colour;
@@ -232,7 +238,7 @@ void CameraSuite::Soil(const std::map<stack::SensorId, render::Dirt>& dirt) {
 Instant CameraSuite::At(const Unit& unit, base::Time t) const {
   const base::Transform X_WB = motion_.At(t).X_WB;
   const base::Transform X_WM = unit.gimbal ? X_WB * gimbals_[*unit.gimbal].At(t) : X_WB;
-  return {X_WM * unit.X_MC, X_WB};
+  return {X_WM * unit.X_MC, X_WB, t};
 }
 
 void CameraSuite::Open(Unit& unit, base::Time now) {
@@ -264,13 +270,26 @@ std::optional<CameraSuite::Frame> CameraSuite::Close(std::size_t number, const O
   if (fate.frozen && unit.last) return frame;
   const bool late = opened.seq % static_cast<std::uint32_t>(unit.late_every) == 0;
   const base::Time middle = late ? opened.captured + unit.late : opened.captured;
-  auto exposure = std::make_shared<Exposure>(PlanExposure(unit.config, unit.calibration.intrinsics.fx, opened.setting,
-                                                          middle, [&](base::Time t) { return At(unit, t); }));
-  exposure->seq = opened.seq;
-  exposure->captured = opened.captured;
+  auto exposure = std::make_shared<Exposure>(Plan(unit, opened, middle));
   frame.print = darkroom_.Request(
       [take = unit.take, exposure](render::CameraRenderer& renderer) { return take(*exposure, renderer); });
   return frame;
+}
+
+Exposure CameraSuite::Plan(const Unit& unit, const Opened& opened, base::Time middle) const {
+  const auto at = [&](base::Time t) { return At(unit, t); };
+  constexpr double kStep = 0.75;  // px
+  const double seen_speed = actors_ != nullptr ? actors_->AngularSpeed(at(middle).X_WC.p) : 0.0;
+  Exposure exposure =
+      PlanExposure(unit.config, unit.calibration.intrinsics.fx, opened.setting, middle, at, kStep, seen_speed);
+  exposure.seq = opened.seq;
+  exposure.captured = opened.captured;
+  for (Exposure::Slice& slice : exposure.slices) {
+    for (Instant& instant : slice.instants) {
+      if (actors_ != nullptr) instant.X_WL = actors_->LinkPoses(instant.time);
+    }
+  }
+  return exposure;
 }
 
 std::vector<CameraSuite::Frame> CameraSuite::Measure(const TruthWindow& truth) {

@@ -17,6 +17,7 @@
 #include "sim/sensors/gimbal.h"
 #include "sim/sensors/motion_history.h"
 #include "stack/interface/calibration.h"
+#include "worlds/actors/actor_simulation.h"
 #include "worlds/world.h"
 
 namespace alula::sim {
@@ -40,10 +41,12 @@ void AddCameras(const CamerasConfig& config, const std::string& vehicle, stack::
 /// One vehicle's cameras: opens each exposure in time, has it drawn when it is over, and hands frames over.
 class CameraSuite {
  public:
-  /// `X_BP`: the vehicle's parts where SeesVehicle. `renderers` as Darkroom has them.
+  /// `X_BP`: the vehicle's parts where SeesVehicle. `renderers` as Darkroom has them. `actors`: of the world; null or
+  /// empty: nothing else moves. They are asked where they were up to the last exposure's end.
   CameraSuite(const CamerasConfig& config, const stack::Calibration& calibration, std::uint64_t seed,
               std::vector<base::Transform> X_BP, const worlds::Light& light,
-              std::vector<render::CameraRenderer*> renderers, bool threads);
+              std::vector<render::CameraRenderer*> renderers, bool threads,
+              const worlds::ActorSimulation* actors = nullptr);
 
   void Settle(base::Time t, const vehicles::BodyState& state);
   void Integrate(base::Time t, const vehicles::BodyState& state, base::Duration dt);
@@ -107,10 +110,12 @@ class CameraSuite {
   void Open(Unit& unit, base::Time now);
   bool IsOver(const Unit& unit, const Opened& opened, base::Time now) const;
   std::optional<Frame> Close(std::size_t number, const Opened& opened);
+  Exposure Plan(const Unit& unit, const Opened& opened, base::Time middle) const;
 
   std::uint64_t seed_;
   std::vector<base::Transform> X_BP_;
   worlds::Light light_;
+  const worlds::ActorSimulation* actors_;
   std::vector<Unit> units_;
   std::vector<ExposureControl> exposures_;
   std::vector<Gimbal> gimbals_;

@@ -40,22 +40,24 @@ base::Duration HalfSpan(const CameraConfig& config, base::Duration length) {
 }
 
 Exposure PlanExposure(const CameraConfig& config, double focal, const ExposureSetting& setting, base::Time captured,
-                      const std::function<Instant(base::Time)>& at, double step) {
+                      const std::function<Instant(base::Time)>& at, double step, double seen_speed) {
   Exposure exposure;
   exposure.captured = captured;
   exposure.setting = setting;
   const base::Duration half_exposure = base::Nanoseconds(setting.length.ns / 2);
   const base::Duration half_roll = base::Nanoseconds(config.row_delay.ns * (config.height - 1) / 2);
+  // What the camera does and what moves by itself may add up.
+  const auto travelled = [&](base::Duration half) {
+    return PixelsTravelled(captured - half, captured + half, focal, at) + 2.0 * half.Seconds() * seen_speed * focal;
+  };
   int bands = 1;
   if (config.row_delay.ns > 0) {
     constexpr double kFiner = 0.35;  // a band's rows are off by up to half a step, all to one side: it shows sooner
-    bands = Parts(PixelsTravelled(captured - half_roll, captured + half_roll, focal, at), kFiner * step,
-                  std::min(config.height, kMostInstants));
+    bands = Parts(travelled(half_roll), kFiner * step, std::min(config.height, kMostInstants));
   }
   int instants = 1;
   if (config.motion_blur) {
-    instants =
-        Parts(PixelsTravelled(captured - half_exposure, captured + half_exposure, focal, at), step, kMostInstants);
+    instants = Parts(travelled(half_exposure), step, kMostInstants);
   }
   for (int band = 0; band < bands; ++band) {
     Exposure::Slice slice;

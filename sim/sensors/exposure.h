@@ -9,9 +9,11 @@
 
 namespace alula::sim {
 
-/// Where the camera and the vehicle are at one instant.
+/// Where the camera and the vehicle are at one instant, and the links of the world's actors where there are some.
 struct Instant {
   base::Transform X_WC, X_WB;
+  base::Time time{};
+  std::vector<base::Transform> X_WL{};
 };
 
 /// All that one picture depends on besides the camera itself. A slice is a band of rows that are drawn as if they were
@@ -33,8 +35,8 @@ base::Duration HalfSpan(const CameraConfig& config, base::Duration length);
 
 /// Cuts an exposure into bands of rows and instants so that between neighbouring instants nothing 1.5 m away or farther
 /// moves more than `step` px in the picture, and between neighbouring bands a third of that: without blur one instant a
-/// band, without rolling shutter one band.
+/// band, without rolling shutter one band. `seen_speed`: of what moves by itself, as the camera sees it, rad/s.
 Exposure PlanExposure(const CameraConfig& config, double focal, const ExposureSetting& setting, base::Time captured,
-                      const std::function<Instant(base::Time)>& at, double step = 0.75);
+                      const std::function<Instant(base::Time)>& at, double step = 0.75, double seen_speed = 0.0);
 
 }  // namespace alula::sim

@@ -56,7 +56,7 @@ void DrawMean(const Optics& optics, const render::Lens::Source& source, const re
   std::vector<std::uint32_t> sums;
   const auto count = static_cast<std::uint32_t>(instants.size());
   for (const Instant& at : instants) {
-    PlaceVehicle(optics, at.X_WB, renderer);
+    PlaceMovers(optics.X_BP, at, renderer);
     render::View view = SourceView(optics, source, rows, at.X_WC);
     view.brightness = static_cast<float>(brightness);
     Draw(optics, view, renderer, out);
@@ -95,9 +95,9 @@ render::Picture DrawExposure(const Optics& optics, const Exposure& exposure, ren
   return picture;
 }
 
-base::Transform MiddlePose(const Exposure& exposure) {
+const Instant& MiddleOf(const Exposure& exposure) {
   const Exposure::Slice& slice = exposure.slices[exposure.slices.size() / 2];
-  return slice.instants[slice.instants.size() / 2].X_WC;
+  return slice.instants[slice.instants.size() / 2];
 }
 
 /// The sun, where it may blind the lens, with the share of its disc (and of the haze about it: 2°) that nothing hides.
@@ -146,16 +146,19 @@ Optics MakeOptics(const CameraConfig& config, const stack::CameraIntrinsics& int
   return {config, intrinsics, std::move(lens), std::move(name), seed, std::move(X_BP), std::move(sensor), light};
 }
 
-void PlaceVehicle(const Optics& optics, const base::Transform& X_WB, render::CameraRenderer& renderer) {
-  if (optics.X_BP.empty()) return;
-  std::vector<base::Transform> X_WP;
-  for (const base::Transform& X_BP : optics.X_BP) X_WP.push_back(X_WB * X_BP);
-  renderer.PlaceMovers(X_WP);
+void PlaceMovers(const std::vector<base::Transform>& X_BP, const Instant& at, render::CameraRenderer& renderer) {
+  if (X_BP.empty() && at.X_WL.empty()) return;
+  std::vector<base::Transform> X_WM;
+  X_WM.reserve(X_BP.size() + at.X_WL.size());
+  for (const base::Transform& part : X_BP) X_WM.push_back(at.X_WB * part);
+  X_WM.insert(X_WM.end(), at.X_WL.begin(), at.X_WL.end());
+  renderer.PlaceMovers(X_WM);
 }
 
 stack::DepthImage TakeDepth(const DepthOptics& optics, const Exposure& exposure, render::CameraRenderer& renderer) {
   const render::View view{
-      .X_WC = MiddlePose(exposure) * optics.X_CD, .intrinsics = optics.intrinsics, .draw_movers = false};
+      .X_WC = MiddleOf(exposure).X_WC * optics.X_CD, .intrinsics = optics.intrinsics, .draw_movers = false};
+  PlaceMovers(optics.X_BP, MiddleOf(exposure), renderer);
   render::DepthPicture depth;
   render::Picture ambient;
   renderer.Depth(view, depth);
@@ -180,7 +183,7 @@ stack::DepthImage TakeDepth(const DepthOptics& optics, const Exposure& exposure,
 
 stack::Image TakeImage(const Optics& optics, const Exposure& exposure, render::CameraRenderer& renderer) {
   render::Picture picture = DrawExposure(optics, exposure, renderer);
-  const std::vector<render::GlareLight> lights = SunInView(optics, MiddlePose(exposure), renderer);
+  const std::vector<render::GlareLight> lights = SunInView(optics, MiddleOf(exposure).X_WC, renderer);
   const double brightness = Brightness(optics, exposure.setting);
   optics.sensor->Apply(picture, KeyOf(optics.seed, optics.name, exposure.seq),
                        {.gain = exposure.setting.gain, .brightness = brightness, .lights = lights});

@@ -43,12 +43,14 @@ struct DepthOptics {
   base::Transform X_CD;                               // pose of the depth camera in the colour camera
   std::string name;
   std::uint64_t seed = 1;
+  std::vector<base::Transform>
+      X_BP{};  // the vehicle's parts where the renderer has them: seen by none, they cast shadows
 };
 
 /// Measures depth at the middle of the exposure. `exposure` speaks of the colour camera. Pure, as TakeImage is.
 stack::DepthImage TakeDepth(const DepthOptics& optics, const Exposure& exposure, render::CameraRenderer& renderer);
 
-/// Puts the vehicle's parts where they are; nothing where the renderer has none.
-void PlaceVehicle(const Optics& optics, const base::Transform& X_WB, render::CameraRenderer& renderer);
+/// Puts the vehicle's parts, then the links of actors, where they are at an instant; nothing where there are none.
+void PlaceMovers(const std::vector<base::Transform>& X_BP, const Instant& at, render::CameraRenderer& renderer);
 
 }  // namespace alula::sim

@@ -60,7 +60,7 @@ stack::Calibration TrueCalibration(const SensorsConfig& config, const vehicles::
 
 SensorSuite::SensorSuite(const SensorsConfig& config, const vehicles::VehicleBody& body, base::Duration step,
                          std::uint64_t seed, const std::string& vehicle, render::CameraRenderer* renderer, int workers,
-                         const worlds::Light& light)
+                         const worlds::Light& light, const worlds::ActorSimulation* actors)
     : config_(config), step_(step), battery_stream_(seed, vehicle + "/battery") {
   battery_clock_.rate = config.battery_rate;
   status_clock_.rate = config.status_rate;
@@ -88,7 +88,7 @@ SensorSuite::SensorSuite(const SensorsConfig& config, const vehicles::VehicleBod
       renderers.push_back(twin_.get());
     }
     cameras_ = std::make_unique<CameraSuite>(config, TrueCalibration(config, body, vehicle), seed, std::move(X_BP),
-                                             light, std::move(renderers), workers >= 2);
+                                             light, std::move(renderers), workers >= 2, actors);
   }
 }
 

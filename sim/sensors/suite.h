@@ -56,10 +56,11 @@ struct OwnReports {
 class SensorSuite {
  public:
   /// `renderer`: needed where there are cameras; made with the vehicle's parts as movers where SeesVehicle. `workers` ≥
-  /// 2: pictures are drawn on two threads of their own. `light`: of the world that the renderer draws.
+  /// 2: pictures are drawn on two threads of their own. `light`: of the world that the renderer draws. `actors`: its
+  /// actors, whose links follow the vehicle's parts among the renderer's movers; null: it has none.
   SensorSuite(const SensorsConfig& config, const vehicles::VehicleBody& body, base::Duration step, std::uint64_t seed,
               const std::string& vehicle, render::CameraRenderer* renderer, int workers,
-              const worlds::Light& light = {});
+              const worlds::Light& light = {}, const worlds::ActorSimulation* actors = nullptr);
   ~SensorSuite();
 
   /// From now on every measurement goes through its hands (null: none does). It outlives the suite.

@@ -1,6 +1,7 @@
 #include "worlds/actors/actor_simulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -132,7 +133,7 @@ void ActorSimulation::Advance(base::Time t, const ActorStimulus& now) {
   }
 }
 
-void ActorSimulation::Interpolate(std::size_t actor, base::Time t, double* q) const {
+void ActorSimulation::Interpolate(std::size_t actor, base::Time t, std::span<double> q) const {
   const std::int64_t back = (ticks_.back().time - t).ns / kTick.ns;  // whole ticks before the last one
   const std::size_t last = ticks_.size() - 1;
   const std::size_t later =
@@ -142,12 +143,13 @@ void ActorSimulation::Interpolate(std::size_t actor, base::Time t, double* q) co
   const Tick& b = ticks_[later];
   const double span = (b.time - a.time).Seconds();
   const double share = span > 0.0 ? std::clamp((t - a.time).Seconds() / span, 0.0, 1.0) : 0.0;
-  for (std::size_t i = first_q_[actor]; i < first_q_[actor + 1]; ++i) *q++ = a.q[i] + share * (b.q[i] - a.q[i]);
+  const std::size_t first = first_q_[actor];
+  for (std::size_t i = 0; i < q.size(); ++i) q[i] = a.q[first + i] + share * (b.q[first + i] - a.q[first + i]);
 }
 
 const std::vector<Transform>& ActorSimulation::Joints(std::size_t actor, base::Time t) const {
   Player& player = *players_[actor];
-  Interpolate(actor, t, player.q.data());
+  Interpolate(actor, t, player.q);
   player.Visit([&](const auto& motion, auto&) { PlaceJoints(motion, player.q.data(), player.X_WJ.data()); });
   return player.X_WJ;
 }
@@ -168,7 +170,13 @@ std::vector<Transform> ActorSimulation::LinkPoses(base::Time t) const {
   return X_WL;
 }
 
-Transform ActorSimulation::RootPose(std::size_t actor, base::Time t) const { return Joints(actor, t).front(); }
+Transform ActorSimulation::RootPose(std::size_t actor, base::Time t) const {
+  return players_[actor]->Visit([&](const auto& motion, auto&) {
+    std::array<double, kRootCoordinates> q{};
+    Interpolate(actor, t, std::span(q).first(std::min(kRootCoordinates, CoordinateCount(motion))));
+    return PlaceRoot(motion, q.data());
+  });
+}
 
 Transform ActorSimulation::GatePose(const Gate& gate, base::Time t) const {
   if (gate.actor < 0) return gate.X_WG;
@@ -186,11 +194,12 @@ double ActorSimulation::AngularSpeed(const Vec3& p_W) const {
   return fastest;
 }
 
-void ActorSimulation::AddTo(base::RollingHash& hash, base::Time from, base::Time to) const {
-  for (const Tick& tick : ticks_) {
-    if (tick.time <= from || tick.time > to) continue;
-    for (const double q : tick.q) hash.Add(q);
-  }
+std::vector<Transform> ActorSimulation::RootsOfTick(base::Time from, base::Time to) const {
+  std::vector<Transform> roots;
+  const base::Time tick{to.ns - to.ns % kTick.ns};
+  if (empty() || tick <= from) return roots;
+  for (std::size_t i = 0; i < players_.size(); ++i) roots.push_back(RootPose(i, tick));
+  return roots;
 }
 
 }  // namespace alula::worlds

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/hash.h"
 #include "base/time.h"
 #include "worlds/world.h"
 
@@ -55,8 +54,8 @@ class ActorSimulation {
   /// Of the fastest actor as seen from p_W, over the last tick: speed / distance (1.5 m at least), rad/s.
   double AngularSpeed(const base::Vec3& p_W) const;
 
-  /// Feeds the coordinates of ticks that begin in (from, to] to a hash.
-  void AddTo(base::RollingHash& hash, base::Time from, base::Time to) const;
+  /// Root poses of all actors at the tick that lies in (from, to], for records; empty where none does.
+  std::vector<base::Transform> RootsOfTick(base::Time from, base::Time to) const;
 
  private:
   struct Player;  // one actor with its state
@@ -66,7 +65,7 @@ class ActorSimulation {
   };
   void Note(base::Time time);
   double FindReach(std::size_t actor) const;
-  void Interpolate(std::size_t actor, base::Time t, double* q) const;
+  void Interpolate(std::size_t actor, base::Time t, std::span<double> q) const;
   const std::vector<base::Transform>& Joints(std::size_t actor, base::Time t) const;
 
   const World* world_;

@@ -115,8 +115,12 @@ void Coordinates(const Drive& drive, const DriveState& state, double* q) {
   q[7] = state.rolled / drive.wheel_radius;
 }
 
+Transform PlaceRoot(const Drive&, const double* q) {
+  return {base::FromYawPitchRoll(q[3], q[4], q[5]), {q[0], q[1], q[2]}};
+}
+
 void PlaceJoints(const Drive& drive, const double* q, Transform* X_WJ) {
-  X_WJ[0] = {base::FromYawPitchRoll(q[3], q[4], q[5]), {q[0], q[1], q[2]}};
+  X_WJ[0] = PlaceRoot(drive, q);
   for (int i = 0; i < 4; ++i) {
     const bool front = i < 2;
     const Vec3 axle(front ? drive.wheelbase : 0.0, i % 2 == 0 ? 0.5 * drive.track : -0.5 * drive.track,

@@ -26,6 +26,7 @@ inline double TopSpeed(const Drive&, const DriveState& state, double) { return 2
 inline std::size_t CoordinateCount(const Drive&) { return 8; }
 inline std::size_t JointCount(const Drive&) { return 5; }
 void Coordinates(const Drive& drive, const DriveState& state, double* q);
+base::Transform PlaceRoot(const Drive& drive, const double* q);
 void PlaceJoints(const Drive& drive, const double* q, base::Transform* X_WJ);
 
 /// From the middle of the rear axle: how far the body reaches forward and back, m.

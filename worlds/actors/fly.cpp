@@ -56,8 +56,10 @@ void Coordinates(const Fly& fly, const FlyState& state, double* q) {
   q[5] = state.tilt.y();
 }
 
-void PlaceJoints(const Fly&, const double* q, base::Transform* X_WJ) {
-  X_WJ[0] = {base::FromYawPitchRoll(q[3], q[4], q[5]), {q[0], q[1], q[2]}};
+base::Transform PlaceRoot(const Fly&, const double* q) {
+  return {base::FromYawPitchRoll(q[3], q[4], q[5]), {q[0], q[1], q[2]}};
 }
+
+void PlaceJoints(const Fly& fly, const double* q, base::Transform* X_WJ) { X_WJ[0] = PlaceRoot(fly, q); }
 
 }  // namespace alula::worlds

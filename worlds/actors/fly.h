@@ -25,6 +25,7 @@ inline double TopSpeed(const Fly&, const FlyState& state, double) { return state
 inline std::size_t CoordinateCount(const Fly&) { return 6; }
 inline std::size_t JointCount(const Fly&) { return 1; }
 void Coordinates(const Fly& fly, const FlyState& state, double* q);
+base::Transform PlaceRoot(const Fly& fly, const double* q);
 void PlaceJoints(const Fly& fly, const double* q, base::Transform* X_WJ);
 
 }  // namespace alula::worlds

@@ -215,11 +215,13 @@ void WalkCoordinates(const GaitState& gait, const Body& body, double height, dou
   }
 }
 
+Transform PelvisPose(const double* q) { return {base::FromYaw(q[3] + Twist(q[4])), {q[0], q[1], q[2]}}; }
+
 void PlacePerson(double height, const double* q, Transform* X_WJ) {
   const Proportions size(height);
   const double swing = q[4];
   const double twist = Twist(swing);
-  const Transform X_WP{base::FromYaw(q[3] + twist), {q[0], q[1], q[2]}};
+  const Transform X_WP = PelvisPose(q);
   X_WJ[kPelvis] = X_WP;
   X_WJ[kChest] = X_WP * Transform{base::FromYawPitchRoll(-1.8 * twist, q[5], 0.0), {0.0, 0.0, size.chest}};
   const Vec3 neck(0.0, 0.0, size.neck - size.chest);

@@ -80,6 +80,7 @@ void StepGait(GaitState& gait, const Body& body, double height, double dt, const
 /// Generalised coordinates: pelvis (3), yaw, swing, lean, then of each foot: ball (3), yaw, pitch.
 inline constexpr std::size_t kWalkCoordinates = 16;
 void WalkCoordinates(const GaitState& gait, const Body& body, double height, double* q);
+base::Transform PelvisPose(const double* q);
 /// Poses of the kPersonJoints frames.
 void PlacePerson(double height, const double* q, base::Transform* X_WJ);
 

@@ -16,6 +16,9 @@ struct Neighbour {
   bool is_solid = false;   // else nobody need heed it
 };
 
+/// The first coordinates of a motion, from which the pose of joint 0 follows.
+inline constexpr std::size_t kRootCoordinates = 6;
+
 /// All that an actor may heed during one tick.
 struct ActorSurroundings {
   base::Time now;  // the tick's begin

@@ -83,10 +83,14 @@ void Coordinates(const Sway&, const SwayState& state, double* q) {
   }
 }
 
+base::Transform PlaceRoot(const Sway& sway, const double* q) {
+  if (sway.X_WR.empty()) return {};
+  return {base::Exp({q[0], q[1], 0.0}) * sway.X_WR[0].q, sway.X_WR[0].p};
+}
+
 void PlaceJoints(const Sway& sway, const double* q, base::Transform* X_WJ) {
   for (std::size_t i = 0; i < sway.X_WR.size(); ++i) {
-    const base::Quat lean = base::Exp({q[2 * i], q[2 * i + 1], 0.0});
-    X_WJ[i] = {lean * sway.X_WR[i].q, sway.X_WR[i].p};
+    X_WJ[i] = {base::Exp({q[2 * i], q[2 * i + 1], 0.0}) * sway.X_WR[i].q, sway.X_WR[i].p};
   }
 }
 

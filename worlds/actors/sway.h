@@ -33,6 +33,7 @@ inline double TopSpeed(const Sway&, const SwayState&, double) { return 0.3; }
 inline std::size_t CoordinateCount(const Sway& sway) { return 2 * sway.X_WR.size(); }
 inline std::size_t JointCount(const Sway& sway) { return sway.X_WR.size(); }
 void Coordinates(const Sway& sway, const SwayState& state, double* q);
+base::Transform PlaceRoot(const Sway& sway, const double* q);
 void PlaceJoints(const Sway& sway, const double* q, base::Transform* X_WJ);
 
 }  // namespace alula::worlds

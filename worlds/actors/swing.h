@@ -27,8 +27,9 @@ inline double TopSpeed(const Swing& swing, const SwingState&, double reach) {
 inline std::size_t CoordinateCount(const Swing&) { return 1; }
 inline std::size_t JointCount(const Swing&) { return 1; }
 inline void Coordinates(const Swing&, const SwingState& state, double* q) { q[0] = state.angle; }
-inline void PlaceJoints(const Swing& swing, const double* q, base::Transform* X_WJ) {
-  X_WJ[0] = swing.X_WH * base::Transform{base::Exp({q[0], 0.0, 0.0}), base::Vec3::Zero()};
+inline base::Transform PlaceRoot(const Swing& swing, const double* q) {
+  return swing.X_WH * base::Transform{base::Exp({q[0], 0.0, 0.0}), base::Vec3::Zero()};
 }
+inline void PlaceJoints(const Swing& swing, const double* q, base::Transform* X_WJ) { X_WJ[0] = PlaceRoot(swing, q); }
 
 }  // namespace alula::worlds

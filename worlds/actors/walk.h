@@ -29,6 +29,7 @@ inline std::size_t JointCount(const Walk&) { return kPersonJoints; }
 inline void Coordinates(const Walk& walk, const WalkState& state, double* q) {
   WalkCoordinates(state.gait, state.body, walk.height, q);
 }
+inline base::Transform PlaceRoot(const Walk&, const double* q) { return PelvisPose(q); }
 inline void PlaceJoints(const Walk& walk, const double* q, base::Transform* X_WJ) { PlacePerson(walk.height, q, X_WJ); }
 
 }  // namespace alula::worlds
