@@ -20,6 +20,11 @@ constexpr double kStretch = 0.010;  // s
 // The uncertainty of a barometer's offset before the first reading, and after a jump of the odometry, m.
 constexpr double kUnknownOffset = 3.0;
 constexpr double kStandingSpeed = 0.02;  // m/s, 1σ when standing
+// 1σ that tilt and biases are given anew when estimates have not fitted for long: an IMU that was dropped, or has come
+// loose, may be off by that much.
+constexpr double kDoubtfulTilt = 0.1;           // rad
+constexpr double kDoubtfulGyro = 0.05;          // rad/s
+constexpr double kDoubtfulAccelerometer = 0.3;  // m/s²
 
 /// The chi-square quantile of k degrees of freedom at the normal quantile z (Wilson and Hilferty 1931).
 double ChiSquare(int k, double z) {
@@ -143,6 +148,7 @@ void ErrorStateFilter::AddEstimate(base::Time now, const stack::Estimate& estima
         Replay();
         return;
       }
+      Doubt();
       Reinitialise(estimate);
     }
     Replay();
@@ -240,6 +246,15 @@ void ErrorStateFilter::Inject(const ErrorVector& delta) { delayed_ = Plus(delaye
 void ErrorStateFilter::Forget(int block, int size) {
   covariance_.middleRows(block, size).setZero();
   covariance_.middleCols(block, size).setZero();
+}
+
+void ErrorStateFilter::Doubt() {
+  const auto add = [this](int block, double sigma) {
+    covariance_.diagonal().segment<3>(block).array() += sigma * sigma;
+  };
+  add(L::kRotation, kDoubtfulTilt);
+  add(L::kGyroBias, kDoubtfulGyro);
+  add(L::kAccelerometerBias, kDoubtfulAccelerometer);
 }
 
 void ErrorStateFilter::Reinitialise(const stack::Estimate& estimate) {

@@ -31,7 +31,8 @@ struct ErrorStateFilterConfig {
   double vision_velocity_floor = 0.03;  // m/s
   double vision_yaw_floor = 0.005;      // rad
   double gate = 4.0;                    // chi-square gate of an innovation, as the one-sided quantile of a normal, σ
-  /// Estimates rejected for this long re-initialise position, velocity and yaw: the filter must be what is wrong.
+  /// Estimates rejected for this long re-initialise position, velocity and yaw, and let tilt and biases be learned
+  /// anew: the filter must be what is wrong.
   base::Duration rejection_timeout = base::Milliseconds(800);
   /// The filter itself stands at most this far behind the present while vision is silent; older estimates are dropped.
   base::Duration horizon = base::Milliseconds(400);
@@ -91,6 +92,8 @@ class ErrorStateFilter {
 
   void WatchStandstill(base::Time now, const stack::ImuSample& imu);
   void Initialise(const stack::Estimate& estimate);
+  /// The IMU is not what the filter takes it for: lets tilt and biases be learned anew.
+  void Doubt();
   void Reinitialise(const stack::Estimate& estimate);
   void Forget(int block, int size);
   void AdvanceTo(base::Time target);

@@ -109,6 +109,7 @@ class VisualInertialStack : public NavigationStack {
         config_(config),
         workshop_(calibration, mission, config),
         propagator_(calibration),
+        watch_(config.watch),
         mission_(calibration, mission, config.mission, config.route, config.alignment, config.latency.planning, seed),
         jobs_(workers) {
     const auto& eyes = *calibration.stereo;
@@ -166,11 +167,13 @@ class VisualInertialStack : public NavigationStack {
   void Take(const Measurement& measurement) {
     if (const auto* imu = std::get_if<ImuSample>(&measurement.data)) {
       if (measurement.sensor != calibration_.imu->sensor) return;
+      if (!watch_.Accept(measurement.captured, *imu, Flying())) return;
       const estimation::TimedImu sample{measurement.captured, imu->angular_velocity, imu->specific_force};
       propagator_.AddImu(sample);
       imu_.push_back(sample);
     } else if (const auto* image = std::get_if<Image>(&measurement.data)) {
       if (measurement.sensor != left_.sensor && measurement.sensor != right_.sensor) return;
+      if (!watch_.Accept(measurement.sensor, *image, Flying())) return;
       StereoFrame& frame = frames_[measurement.seq];
       if (measurement.sensor == left_.sensor) {
         frame.left = *image;
@@ -183,6 +186,8 @@ class VisualInertialStack : public NavigationStack {
       status_ = *status;
     }
   }
+
+  bool Flying() const { return status_ && !status_->landed; }
 
   /// The oldest whole pair whose inertial samples are complete goes to the odometry.
   void StartOdometry(Time now) {
@@ -220,6 +225,7 @@ class VisualInertialStack : public NavigationStack {
     propagator_.Correct(frame);
     ReportOdometry(now, frame);
     initialised_ = frame.initialised;
+    if (initialised_) watch_.NoteFrame(frame.state.stamp);
     if (initialised_ && frame.seq % static_cast<std::uint32_t>(config_.depth_every) == 0) {
       jobs_.Start(
           "mapping", "mapping", now, config_.latency.mapping,
@@ -262,7 +268,7 @@ class VisualInertialStack : public NavigationStack {
     MissionInput input;
     input.now = now;
     input.initialised = initialised_ && estimate.has_value();
-    input.healthy = input.initialised;
+    input.healthy = input.initialised && watch_.Trusted(now);
     if (estimate) {
       input.X_OB = estimate->X_OB;
       input.v_OB = estimate->v_OB;
@@ -280,7 +286,7 @@ class VisualInertialStack : public NavigationStack {
           },
           [this](planning::RouteResult result) { mission_.OnRoute(std::move(result)); });
     }
-    if (estimate && initialised_ && now >= next_estimate_) {
+    if (input.healthy && now >= next_estimate_) {
       next_estimate_ = now + config_.estimate_period;
       out_->estimate = estimate;
       if (config_.publish_alignment) out_->estimate->X_MO = mission_.X_MO();
@@ -292,6 +298,7 @@ class VisualInertialStack : public NavigationStack {
   CameraCalibration left_, right_;
   Workshop workshop_;
   estimation::ImuPropagator propagator_;
+  SensorWatch watch_;
   GateMission mission_;
 
   StackOutput* out_ = nullptr;  // during Step
@@ -328,6 +335,7 @@ void Describe(base::Description& d, VisualInertialConfig& c) {
   d.Field("route", c.route, {.meaning = "planning"});
   d.Field("alignment", c.alignment, {.meaning = "map frame from measured gates"});
   d.Field("mission", c.mission, {.meaning = "what is flown when"});
+  d.Field("watch", c.watch, {.meaning = "sensors that fall silent or are stuck"});
   d.Field("latency", c.latency, {.meaning = "declared compute times"});
   d.Field("depth_every", c.depth_every,
           {.meaning = "every this many-th stereo pair goes into the map", .min = 1, .max = 1000});

@@ -11,6 +11,7 @@
 #include "stack/perception/gate_finder.h"
 #include "stack/pilot/gate_mission.h"
 #include "stack/pilot/map_alignment.h"
+#include "stack/pilot/sensor_watch.h"
 #include "stack/planning/route_planner.h"
 
 namespace alula::stack::pilot {
@@ -31,6 +32,7 @@ struct VisualInertialConfig {
   planning::RouteConfig route;
   MapAlignmentConfig alignment;
   GateMissionConfig mission;
+  SensorWatchConfig watch;
   DeclaredLatencies latency;
   int depth_every = 2;  // every this many-th stereo pair goes into the map: 10 Hz of 20 Hz
   base::Duration estimate_period = base::Milliseconds(10);  // 100 Hz

@@ -267,6 +267,19 @@ TEST(ErrorStateFilter, RejectsOutliersAndGivesInWhenTheyPersist) {
   EXPECT_LT(flight.Error(flight.filter.state(), flight.now).head<3>().norm(), 0.08);
 }
 
+/// An IMU that was knocked: the tilt drifts until no estimate fits; then the filter doubts itself and learns the bias.
+TEST(ErrorStateFilter, LearnsABiasThatStepsInFlight) {
+  Flight flight(6, {}, {});
+  for (int k = 0; k < 8000; ++k) flight.Step(true);
+  flight.gyro_bias += Vec3(0.02, 0.087, -0.01);  // 5 deg/s
+  for (int k = 0; k < 8000; ++k) flight.Step(true);
+  EXPECT_GE(flight.filter.jumps(), 1U);
+  const ErrorVector e = flight.Error(flight.filter.state(), flight.now);
+  EXPECT_LT(e.head<3>().norm(), 0.1);
+  EXPECT_LT(e.segment<3>(ErrorLayout::kRotation).norm(), 0.03);
+  EXPECT_LT(e.segment<3>(ErrorLayout::kGyroBias).norm(), 0.02);
+}
+
 TEST(ErrorStateFilter, DeadReckonsHonestlyThroughSilence) {
   Flight flight(5, {}, {});
   for (int k = 0; k < 10'000; ++k) flight.Step(true);

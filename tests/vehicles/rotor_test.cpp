@@ -134,12 +134,12 @@ TEST(Battery, ACollapsedPackSolvesTheCircuitOfWhatIsLeft) {
   const BatteryConfig c;
   Battery battery(c);
   battery.Impair(4.0, 0.75);
-  battery.Step(300, Milliseconds(1));
+  battery.Step(120, Milliseconds(1));
   const double open = 0.75 * c.cells * CellVoltage(battery.state_of_charge());
-  EXPECT_NEAR(battery.voltage() * battery.current(), 300 / c.drive_efficiency + c.avionics_power, 1e-9);
+  EXPECT_NEAR(battery.voltage() * battery.current(), 120 / c.drive_efficiency + c.avionics_power, 1e-9);
   EXPECT_NEAR(battery.voltage() + 4 * c.internal_resistance * battery.current(), open, 1e-4);  // charge moved by a step
   battery.Impair(1.0, 1.0);
-  battery.Step(300, Milliseconds(1));
+  battery.Step(120, Milliseconds(1));
   EXPECT_NEAR(battery.voltage() + c.internal_resistance * battery.current(), c.cells * CellVoltage(c.initial_charge),
               1e-3);  // mended
 }

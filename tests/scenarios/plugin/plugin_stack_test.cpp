@@ -67,6 +67,27 @@ TEST(PluginStack, NothingOfAVisualInertialStackIsLostAtTheBoundary) {
   ExpectSameRun(LoadScenario(FindScenario("courtyard_gates"), {{"criteria", "[{type: time_limit, limit: 4 s}]"}}, 1));
 }
 
+// A stack that declares latencies is slowed behind the boundary as it is inside; one without the symbol is left alone.
+TEST(PluginStack, ASlowComputerCrosses) {
+  cv::setNumThreads(1);
+  const std::vector<base::Override> slow{{"criteria", "[{type: time_limit, limit: 3 s}]"},
+                                         {"faults", "[{type: computer, factor: 4, at: 1500 ms}]"}};
+  const Scenario scenario = LoadScenario(FindScenario("courtyard_gates"), slow, 1);
+  ExpectSameRun(scenario);
+  Scenario prompt = scenario;
+  prompt.config.faults.clear();
+  EXPECT_NE(RunScenario(scenario, {}).digests.at("estimates"), RunScenario(prompt, {}).digests.at("estimates"));
+
+  const TemporaryFolder folder("slow_silent");
+  Scenario silent = Hover(kSilent + "none.so");
+  silent.config.criteria = LoadScenario(FindScenario("hover"), slow, 1).config.criteria;
+  silent.config.faults = scenario.config.faults;
+  RunOptions options;
+  options.out = folder.path();
+  RunScenario(silent, options);
+  EXPECT_NE(testing::ReadText(folder.path() / "events.jsonl").find("fault_ignored"), std::string::npos);
+}
+
 TEST(PluginStack, FilesAndTimesCross) {
   const TemporaryFolder folder("plugin_files");
   RunOptions options;
