@@ -61,7 +61,7 @@ Simulation::Simulation(SimulationParts parts)
       autopilot_imu_(parts_.autopilot_sensors.imu, parts_.config.step, parts_.seed,
                      parts_.vehicle_id + "/autopilot.imu"),
       autopilot_barometer_(parts_.autopilot_sensors.barometer, parts_.seed, parts_.vehicle_id + "/autopilot.barometer"),
-      wind_(parts_.world->wind, parts_.seed) {
+      wind_(*parts_.world, parts_.seed) {
   if (!actors_.empty()) {
     physics_->MoveActors(actors_, {0});
     physics_->DetectContacts();
@@ -172,7 +172,7 @@ void Simulation::StepAutopilot() {
 void Simulation::StepBody() {
   const base::Duration dt = parts_.config.step;
   const vehicles::BodyState before = physics_->state();
-  wind_W_ = wind_.At(before.X_WB.p, dt);
+  wind_W_ = wind_.At(before.X_WB.p, dt, before.v_WB);
   const vehicles::Wrench wrench = parts_.vehicle->Step(before, autopilot_output_.actuators, wind_W_, dt);
   Lap(kVehicle);
   MoveActors(before, wrench);

@@ -1,10 +1,13 @@
 #include "worlds/courtyard.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "base/error.h"
+#include "worlds/actors/machines.h"
+#include "worlds/actors/person.h"
 #include "worlds/assets.h"
 #include "worlds/course.h"
 #include "worlds/furniture.h"
@@ -175,6 +178,7 @@ void AddFurniture(World& world, const Looks& looks, const CourtyardConfig& confi
 }
 
 Wind DrawWind(const CourtyardConfig& config, std::uint64_t seed) {
+  if (config.wind) return DrawWind(*config.wind, seed);
   RandomStream random(seed, "world/wind");
   const double speed = random.Uniform(config.wind_speed_min, config.wind_speed_max);
   const double direction = random.Uniform(-kPi, kPi);
@@ -207,6 +211,46 @@ Transform DrawStart(const CourtyardConfig& config, const CoursePlan& course, std
   return {base::FromYaw(base::WrapAngle(yaw)), {p.x(), p.y(), kPadHeight}};
 }
 
+/// Which gates swing, as many as are wanted.
+std::array<bool, 5> DrawSwinging(const CourtyardConfig& config, RandomStream& random) {
+  std::array<bool, 5> swings{};
+  for (int wanted = config.swinging_gates; wanted > 0; --wanted) {
+    auto skip = random.Index(static_cast<std::uint64_t>(std::count(swings.begin(), swings.end(), false)));
+    for (bool& swing : swings) {
+      if (swing || skip-- > 0) continue;
+      swing = true;
+      break;
+    }
+  }
+  return swings;
+}
+
+void AddGates(World& world, const Looks& looks, const CourtyardConfig& config, const CoursePlan& course,
+              std::uint64_t seed) {
+  RandomStream random(seed, "world/actors/gates");
+  const std::array<bool, 5> swings = DrawSwinging(config, random);
+  for (std::size_t i = 0; i < course.gates.size(); ++i) {
+    const std::string name = "gate" + std::to_string(i);
+    if (swings[i]) {
+      AddSwingingGate(world, looks.gate[i], name, course.gates[i],
+                      {config.gate_swing, config.gate_period, random.Uniform()});
+    } else {
+      AddGate(world, looks.gate[i], name, course.gates[i]);
+    }
+  }
+}
+
+void AddPeople(World& world, const CourtyardConfig& config, const CoursePlan& course, std::uint64_t seed) {
+  CrowdConfig crowd{.count = config.people,
+                    .speed = config.people_speed,
+                    .reactive = config.reactive,
+                    .low = {-kLength, -kWidth},
+                    .high = {kLength, kWidth},
+                    .free = {{course.pad, config.pad_radius + 0.8}, {course.target, 1.5}}};
+  for (const GatePlan& gate : course.gates) crowd.free.push_back({gate.p, 0.5 * gate.opening + gate.frame + 0.3});
+  AddCrowd(world, "person", crowd, seed);
+}
+
 }  // namespace
 
 World MakeWorld(const CourtyardConfig& config, std::uint64_t seed) {
@@ -218,9 +262,7 @@ World MakeWorld(const CourtyardConfig& config, std::uint64_t seed) {
   AddGround(world, looks, masonry);
   AddWalls(world, looks, config, masonry);
   AddPad(world, looks.pad, course.pad, config.pad_radius);
-  for (std::size_t i = 0; i < course.gates.size(); ++i) {
-    AddGate(world, looks.gate[i], "gate" + std::to_string(i), course.gates[i]);
-  }
+  AddGates(world, looks, config, course, seed);
   AddFurniture(world, looks, config, course, seed);
   world.wind = DrawWind(config, seed);
   world.light = DrawLight(config, seed);
@@ -228,6 +270,7 @@ World MakeWorld(const CourtyardConfig& config, std::uint64_t seed) {
   world.target = {course.target.x(), course.target.y(), course.target_height};
   world.bounds_low = {-kLength + 0.3, -kWidth + 0.3, 0.0};
   world.bounds_high = {kLength - 0.3, kWidth - 0.3, 3.5};
+  AddPeople(world, config, course, seed);
   return world;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/describe.h"
+#include "worlds/wind_config.h"
 #include "worlds/world.h"
 
 namespace alula::worlds {
@@ -41,6 +42,13 @@ struct CourtyardConfig {
   double sun_elevation_max = 1.22;    // rad (70°)
   double sunlight = 1.0;              // factor on the sun's drawn strength; 0 at night
   double skylight = 1.0;              // factor on the light of the sky; 0.01 at night
+  std::optional<WindConfig> wind;     // in place of the drawn one
+  int people = 0;                     // who walk about
+  double people_speed = 1.2;          // m/s
+  bool reactive = true;               // people heed the vehicle
+  int swinging_gates = 0;             // of the five
+  double gate_swing = 0.25;           // rad, their amplitude
+  double gate_period = 4.0;           // s
   std::optional<Fog> fog{};           // none
   std::vector<Lamp> lamps{};          // that stand in the courtyard, besides sun and sky
   std::string prop = "fountain.obj";  // a mesh in worlds/assets, in the middle of the courtyard; empty: none
@@ -57,7 +65,9 @@ void Describe(base::Description& d, CourtyardConfig& c);
 /// 2 m before and after it; every obstacle stands ≥ 1.3 m from gates and other obstacles, so that ways are passable;
 /// the first and the last leg are free; a column above the pad is free; ≤ 30 000 triangles.
 /// Objects of gate i are named "gate<i>/left", "/right", "/top", "/bottom", "/post", "/foot".
-/// Throws base::InputError when the prop cannot be read.
+/// A gate that swings is the actor "gate<i>/frame" with its parts, beside "gate<i>/post" and "/foot"; its pose in
+/// `gates` is that at rest. People are "person<i>" (streams "world/actors/…").
+/// Throws base::InputError when the prop cannot be read, and where there is no room for so many people.
 World MakeWorld(const CourtyardConfig& config, std::uint64_t seed);
 
 }  // namespace alula::worlds

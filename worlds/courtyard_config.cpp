@@ -46,6 +46,15 @@ void Describe(base::Description& d, CourtyardConfig& c) {
   d.Field("sunlight", c.sunlight, {.meaning = "factor on the sun's strength; 0 at night", .min = 0.0, .max = 2.0});
   d.Field("skylight", c.skylight,
           {.meaning = "factor on the light of the sky; some 0.01 at night", .min = 0.0, .max = 2.0});
+  d.Field("wind", c.wind, {.meaning = "in place of the wind that the ranges draw; null: theirs"});
+  d.Field("people", c.people, {.meaning = "people who walk about", .min = 0, .max = 60});
+  d.Field("people_speed", c.people_speed, {.unit = "m/s", .meaning = "mean of their speeds", .min = 0.1, .max = 3.0});
+  d.Field("reactive", c.reactive, {.meaning = "whether people heed the vehicle"});
+  d.Field("swinging_gates", c.swinging_gates,
+          {.meaning = "of the five, drawn: their frames swing about a hinge at the left", .min = 0, .max = 5});
+  d.Field("gate_swing", c.gate_swing,
+          {.unit = "rad", .meaning = "how far they swing to each side", .min = 0.0, .max = 0.8});
+  d.Field("gate_period", c.gate_period, {.unit = "s", .meaning = "of a swing there and back", .min = 0.5, .max = 60.0});
   d.Field("fog", c.fog, {.meaning = "even fog; none where the key is missing"});
   d.Field("lamps", c.lamps, {.meaning = "lamps that stand in the courtyard, at most 32"});
   d.Check("lamps", [&c] { return c.lamps.size() <= 32 ? std::string() : std::string("must not be more than 32"); });

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "geometry/load_texture.h"
+#include "worlds/actors/machines.h"
 #include "worlds/furniture.h"
 #include "worlds/textures.h"
 
@@ -50,11 +51,17 @@ class SceneBuilder {
     for (std::size_t i = 0; i < config_.objects.size(); ++i) AddThing(config_.objects[i], i);
     for (std::size_t i = 0; i < config_.gates.size(); ++i) {
       const SceneGate& gate = config_.gates[i];
-      AddGate(world_, MaterialOf(gate.material), "gate" + std::to_string(i),
-              {gate.position.head<2>(), gate.yaw, gate.position.z(), gate.opening, gate.frame});
+      const GatePlan plan{gate.position.head<2>(), gate.yaw, gate.position.z(), gate.opening, gate.frame};
+      const std::string name = "gate" + std::to_string(i);
+      if (gate.swing) {
+        AddSwingingGate(world_, MaterialOf(gate.material), name, plan, {gate.swing->amplitude, gate.swing->period});
+      } else {
+        AddGate(world_, MaterialOf(gate.material), name, plan);
+      }
     }
     AddStart();
     AddSurroundings();
+    AddActors(world_, config_.actors, nullptr, seed_);
     return std::move(world_);
   }
 
@@ -97,6 +104,7 @@ class SceneBuilder {
       throw base::InputError("world.pad_position lies outside the world's bounds; move it, or the bounds or ground");
     }
     world_.wind = {config_.wind_mean, config_.gust_sigma, config_.gust_time};
+    if (config_.wind) world_.wind = DrawWind(*config_.wind, seed_);
     const double level = std::cos(config_.sun_elevation);
     world_.light.to_sun_W = {level * std::cos(config_.sun_azimuth), level * std::sin(config_.sun_azimuth),
                              std::sin(config_.sun_elevation)};

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "base/describe.h"
+#include "worlds/actors/actor_config.h"
+#include "worlds/wind_config.h"
 #include "worlds/world.h"
 
 namespace alula::worlds {
@@ -83,12 +85,19 @@ struct SceneObject {
   base::Origin name_origin;
 };
 
+/// A gate's frame that swings about a hinge at its left.
+struct SceneSwing {
+  double amplitude = 0.25;  // rad
+  double period = 4.0;      // s
+};
+
 struct SceneGate {
   base::Vec3 position{0.0, 0.0, 1.5};  // of the opening's centre, m
   double yaw = 0.0;                    // of the direction of passage, rad
   double opening = 1.4;                // m
   double frame = 0.15;                 // m, of its bars
   SceneMaterial material{.pattern = SceneMaterial::Coat::kSignal};
+  std::optional<SceneSwing> swing{};  // null: it stands
 };
 
 struct SceneGround {
@@ -117,6 +126,8 @@ struct SceneConfig {
   base::Vec3 wind_mean = base::Vec3::Zero();  // m/s, where the air moves to (world axes)
   double gust_sigma = 0.0;                    // m/s, per axis
   double gust_time = 2.0;                     // s
+  std::optional<WindConfig> wind;             // in place of the three
+  std::vector<ActorConfig> actors;            // what moves
   int texture_size = 512;                     // texels a side of our own patterns
 };
 

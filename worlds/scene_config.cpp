@@ -77,12 +77,18 @@ void Describe(base::Description& d, SceneObject& c) {
   d.Field("collides", c.collides, {.meaning = "whether it can be hit"});
 }
 
+void Describe(base::Description& d, SceneSwing& c) {
+  d.Field("amplitude", c.amplitude, {.unit = "rad", .meaning = "to each side", .min = 0.0, .max = 0.8});
+  d.Field("period", c.period, {.unit = "s", .meaning = "there and back", .min = 0.5, .max = 60.0});
+}
+
 void Describe(base::Description& d, SceneGate& c) {
   Place(d, "position", c.position, "of the opening's centre");
   Angle(d, "yaw", c.yaw, "of the direction of passage");
   d.Field("opening", c.opening, {.unit = "m", .meaning = "side of the opening", .min = 0.1, .max = 20.0});
   d.Field("frame", c.frame, {.unit = "m", .meaning = "width of its bars", .min = 0.01, .max = 2.0});
   d.Field("material", c.material, {.meaning = "how its frame looks"});
+  d.Field("swing", c.swing, {.meaning = "about a hinge at its left; null: it stands"});
   d.Check("position", [&c] {
     return c.position.z() > 0.5 * c.opening + c.frame
                ? std::string()
@@ -117,6 +123,8 @@ void Describe(base::Description& d, SceneConfig& c) {
   d.Field("gust_sigma", c.gust_sigma,
           {.unit = "m/s", .meaning = "standard deviation of gusts per axis", .min = 0.0, .max = 20.0});
   d.Field("gust_time", c.gust_time, {.unit = "s", .meaning = "correlation time of gusts", .min = 0.05, .max = 60.0});
+  d.Field("wind", c.wind, {.meaning = "in place of wind_mean and gusts; null: they hold"});
+  DescribeActors(d, c.actors);
   d.Field("texture_size", c.texture_size,
           {.meaning = "texels a side of our patterns, a power of two", .min = 32, .max = 4096});
   d.Check("texture_size", [&c] {

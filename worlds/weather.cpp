@@ -55,6 +55,7 @@ void Describe(base::Description& d, WeatherConfig& c) {
   d.Field("gust_share", c.gust_share,
           {.meaning = "standard deviation of gusts per axis over the mean wind's speed", .min = 0.0, .max = 1.0});
   d.Field("gust_time", c.gust_time, {.unit = "s", .meaning = "correlation time of gusts", .min = 0.05, .max = 60.0});
+  d.Field("wind", c.wind, {.meaning = "in place of the wind that is drawn between these; null: theirs"});
   d.Check("sun_elevation", [&c]() -> std::string {
     if (!c.sun_elevation || c.hour == WeatherConfig::Hour::kNight) return {};
     const bool high = *c.sun_elevation > 10.0 * kDegree;
@@ -68,7 +69,8 @@ void Describe(base::Description& d, WeatherConfig& c) {
     return c.wind_speed_max >= c.wind_speed_min ? std::string() : std::string("must not be below wind_speed_min");
   });
   d.Check("wind_speed_min", [&c] {
-    return !c.fog || c.wind_speed_min <= 10.0 || c.fog->visibility > 1000.0
+    const double least = c.wind ? c.wind->speed : c.wind_speed_min;
+    return !c.fog || least <= 10.0 || c.fog->visibility > 1000.0
                ? std::string()
                : std::string("above 10 m/s contradicts fog, which such a wind blows away; drop one of them");
   });
@@ -97,6 +99,7 @@ Light DrawLight(const WeatherConfig& weather, std::uint64_t seed) {
 }
 
 Wind DrawWind(const WeatherConfig& weather, std::uint64_t seed) {
+  if (weather.wind) return DrawWind(*weather.wind, seed);
   base::RandomStream random(seed, "world/wind");
   const double speed = random.Uniform(weather.wind_speed_min, weather.wind_speed_max);
   const double direction = random.Uniform(-kPi, kPi);

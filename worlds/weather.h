@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/describe.h"
+#include "worlds/wind_config.h"
 #include "worlds/world.h"
 
 namespace alula::worlds {
@@ -21,8 +22,9 @@ struct WeatherConfig {
   std::optional<Fog> fog;
   double wind_speed_min = 0.0;  // m/s; the mean is drawn between these, its direction over the compass
   double wind_speed_max = 3.0;
-  double gust_share = 0.2;  // of the mean wind's speed, 1σ per axis
-  double gust_time = 2.0;   // s
+  double gust_share = 0.2;         // of the mean wind's speed, 1σ per axis
+  double gust_time = 2.0;          // s
+  std::optional<WindConfig> wind;  // in place of these four
 };
 void Describe(base::Description& d, WeatherConfig& c);
 

@@ -35,11 +35,26 @@ struct Gate {
   int actor = -1;        // index into World::actors of what swings it (a Swing); −1: it stands
 };
 
-/// A mean wind with first-order gusts on top (Gauss–Markov per axis).
+/// Turbulence as dryden.h has it.
+struct Dryden {
+  double w20 = 0.0;             // mean wind 20 ft above the ground, m/s
+  double airspeed_floor = 1.0;  // m/s
+};
+/// A gust that rises and falls once: (1 − cos) / 2.
+struct CosineGust {
+  double start = 0.0;                          // s
+  double duration = 1.0;                       // s
+  base::Vec3 velocity_W = base::Vec3::Zero();  // at its middle, m/s
+};
+
+/// A mean wind with first-order gusts on top (Gauss–Markov per axis), and more where it is asked for (wind.h).
 struct Wind {
   base::Vec3 mean_W = base::Vec3::Zero();  // m/s, where the air moves to
   double gust_sigma = 0.0;                 // m/s
   double gust_time = 2.0;                  // correlation time, s
+  std::optional<Dryden> dryden{};
+  std::vector<CosineGust> gusts{};
+  bool shelter = false;  // in the lee of what stands
 };
 
 struct Light {

@@ -101,6 +101,18 @@ void AddExtras(base::RollingHash& hash, const World& world) {
     hash.Add(std::string_view("lamp"));
     Add(hash, lamp);
   }
+  if (world.wind.dryden) {
+    hash.Add(std::string_view("dryden"));
+    hash.Add(world.wind.dryden->w20);
+    hash.Add(world.wind.dryden->airspeed_floor);
+  }
+  for (const CosineGust& gust : world.wind.gusts) {
+    hash.Add(std::string_view("gust"));
+    hash.Add(gust.start);
+    hash.Add(gust.duration);
+    hash.Add(gust.velocity_W);
+  }
+  if (world.wind.shelter) hash.Add(std::string_view("shelter"));
   for (const Actor& actor : world.actors) {
     hash.Add(std::string_view("actor"));
     Add(hash, actor);
