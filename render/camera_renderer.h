@@ -91,5 +91,8 @@ class CameraRenderer {
 /// maker is not available.
 std::unique_ptr<CameraRenderer> MakeRenderer(std::string_view maker, const worlds::World& world,
                                              std::span<const Mover> movers);
+/// One of a world by itself, its actors placed as they are at the begin of a run with this seed.
+std::unique_ptr<CameraRenderer> MakeRendererAtStart(std::string_view maker, const worlds::World& world,
+                                                    std::uint64_t seed);
 
 }  // namespace alula::render

@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "render/camera_renderer.h"
+#include "worlds/actors/actor_simulation.h"
 
 namespace alula::render {
 
@@ -22,6 +23,13 @@ std::vector<Mover> MoversOf(const worlds::World& world) {
     }
   }
   return movers;
+}
+
+std::unique_ptr<CameraRenderer> MakeRendererAtStart(std::string_view maker, const worlds::World& world,
+                                                    std::uint64_t seed) {
+  auto renderer = MakeRenderer(maker, world, MoversOf(world));
+  if (!world.actors.empty()) renderer->PlaceMovers(worlds::ActorSimulation(world, seed).LinkPoses({0}));
+  return renderer;
 }
 
 }  // namespace alula::render

@@ -119,6 +119,11 @@ std::size_t TrianglesOf(const worlds::World& world) {
   for (const worlds::Object& object : world.objects) {
     count += geometry::Tessellate(object.shape, object.texture_scale).triangles.size();
   }
+  for (const worlds::Actor& actor : world.actors) {
+    for (const worlds::ActorLink& link : actor.links) {
+      count += geometry::Tessellate(link.shape, link.texture_scale).triangles.size();
+    }
+  }
   return count;
 }
 
@@ -130,8 +135,8 @@ ContactSheet MakeContactSheet(const WorldConfig& config, const std::string& titl
   const auto day = WorldAtHour(config, Hour::kDay, seed);
   const auto made = std::chrono::steady_clock::now();
   const auto night = WorldAtHour(config, Hour::kNight, seed);
-  const auto day_renderer = render::MakeRenderer(maker, *day, {});
-  const auto night_renderer = render::MakeRenderer(maker, *night, {});
+  const auto day_renderer = render::MakeRendererAtStart(maker, *day, seed);
+  const auto night_renderer = render::MakeRendererAtStart(maker, *night, seed);
   const std::vector<Viewpoint> views = NamedViewpoints(*day);
 
   ContactSheet sheet;

@@ -129,7 +129,7 @@ PictureTexture TextureOf(const std::vector<std::uint8_t>& bytes, int width, int 
 TextureRow TextureOfWorld(const WorldConfig& config, const std::string& name, std::uint64_t seed, int count,
                           const std::string& maker) {
   const auto world = MakeWorld(config, seed);
-  const auto renderer = render::MakeRenderer(maker, *world, {});
+  const auto renderer = render::MakeRendererAtStart(maker, *world, seed);
   std::vector<PictureTexture> pictures;
   render::Picture picture;
   for (const base::Transform& X_WC : RandomViewpoints(*world, count, seed)) {

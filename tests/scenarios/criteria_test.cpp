@@ -14,6 +14,7 @@
 #include "scenarios/criteria/target_reached.h"
 #include "scenarios/criteria/time_limit.h"
 #include "tests/sim/test_world.h"
+#include "worlds/actors/machines.h"
 
 namespace alula::scenarios {
 namespace {
@@ -46,6 +47,7 @@ class Film {
   std::optional<std::string> Show(sim::Observer& observer, double t, const Transform& X) {
     const base::Time end = base::Time{} + base::Seconds(t);
     const double dt = (end - window_.end).Seconds();
+    actors_.Advance(end, {.p_WB = X.p});
     const Vec3 v = dt > 0 ? Vec3((X.p - window_.at_end.X_WB.p) / dt) : Vec3::Zero();
     window_ = {window_.end, end, window_.at_end, {X, v, Vec3::Zero()}};
     physics_.MovePrescribed(window_.at_end);
@@ -72,9 +74,11 @@ class Film {
             .vehicle = vehicle_,
             .autopilot = nullptr,
             .world = world_,
+            .actors = actors_,
             .imu_bias = {}};
   }
   worlds::World world_;
+  worlds::ActorSimulation actors_{world_, 1};
   StillVehicle vehicle_;
   sim::PhysicsWorld physics_;
   sim::TruthWindow window_{{0}, {0}, sim::testing::At({0, 0, 0.1}), sim::testing::At({0, 0, 0.1})};
@@ -117,6 +121,25 @@ TEST(Gates, CountsPassagesInOrderAndForward) {
   // Opening 0.6 either way, offset 0.1, plate 0.1 wide and 0.02 high: sideways 0.4 is left, upwards 0.48.
   EXPECT_NEAR(Measured(gates, "gate_margin"), 0.4, 1e-12);
   EXPECT_TRUE(Passed(gates));
+}
+
+/// A gate on a hinge, passed through its middle as it hangs there: swung out by its amplitude, and at rest.
+TEST(Gates, JudgesASwingingGateWhereItIs) {
+  for (const double t : {0.5, 2.0}) {
+    worlds::World world = sim::testing::GroundAndCrate();
+    world.objects.resize(1);
+    worlds::AddSwingingGate(world, 0, "gate0", {{2.0, 0.0}, 0.0, 1.5, 1.0, 0.1}, {.amplitude = 0.5, .period = 2.0});
+    const worlds::Swing swing = std::get<worlds::Swing>(world.actors[0].motion);
+    const base::Quat turn = base::FromYaw(0.5 * std::sin(M_PI * t));
+    const Vec3 middle = swing.X_WH.p + turn * (world.gates[0].X_WG.p - swing.X_WH.p);
+    Film film(std::move(world));
+    Gates gates({});
+    film.Show(gates, t - 0.001, Transform{turn, middle - turn * Vec3(0.1, 0, 0)});
+    film.Show(gates, t, Transform{turn, middle + turn * Vec3(0.1, 0, 0)});
+    EXPECT_EQ(Measured(gates, "gates_passed"), 1);
+    // Half the opening less half the plate; the frame moves by 0.8 mm in the millisecond.
+    EXPECT_NEAR(Measured(gates, "gate_margin"), 0.4, 2e-3);
+  }
 }
 
 TEST(Gates, BackwardsSkippedAndOutsideDoNotCount) {

@@ -70,8 +70,8 @@ void Advance(const Drive& drive, DriveState& state, const ActorSurroundings& aro
   const RunLimits limits = LimitsOf(drive);
   const double reach = limits.speed * limits.speed / (2.0 * limits.brake) + 3.0;
   const double free = FreeAhead(drive, state, around, reach);
-  const double wanted = std::min(SpeedForPath(*state.path, state.runner.s, limits),
-                                 free < reach ? StoppingSpeed(limits.brake, free) : 1e9);
+  const double wanted =
+      std::min(SpeedForPath(*state.path, state.runner, limits), free < reach ? StoppingSpeed(limits.brake, free) : 1e9);
   const double before = state.runner.s;
   Run(state.runner, wanted, limits, around.dt);
   if (!state.path->closed()) state.runner.s = std::min(state.runner.s, state.path->length());

@@ -32,7 +32,7 @@ void Advance(const Fly& fly, FlyState& state, const ActorSurroundings& around) {
   constexpr double kTiltLag = 0.15;  // s
   const RunLimits limits = LimitsOf(fly);
   const RoundedPath::Point at = state.path->At(state.runner.s);
-  double wanted = SpeedForPath(*state.path, state.runner.s, limits);
+  double wanted = SpeedForPath(*state.path, state.runner, limits);
   const Vec3 to_vehicle = around.vehicle.p_WB - at.p;
   const Vec3 way = Vec3(std::cos(at.heading), std::sin(at.heading), at.slope).normalized();
   if (fly.reactive && to_vehicle.dot(way) > 0.3 * to_vehicle.norm()) {

@@ -97,7 +97,15 @@ void PlaceArm(const Proportions& size, const Transform& X_WC, int side, double a
 /// Lifts, swings and sets down one foot whose own phase has come to `phase`.
 void StepFoot(Foot& foot, int side, double phase, double stride, const Body& body, const Proportions& size,
               const GroundHeight& ground) {
+  const double speed = body.v.norm();
+  const Vec2 way = speed > 1e-6 ? Vec2(body.v / speed) : Vec2::Zero();
+  const double share = std::min(speed / 0.3, 1.0);  // who hardly moves sets the feet side by side
   if (phase < kStance) {
+    if (foot.swings) {  // it has just come down
+      const Vec2 p = Footfall(body, size, side, share * (kAhead - phase) * stride * way);
+      foot.ball = {p.x(), p.y(), ground(p)};
+      foot.yaw = foot.lifted_yaw + base::WrapAngle(body.yaw - foot.lifted_yaw);
+    }
     foot.swings = false;
     // A heel that rises never sinks back while it stands.
     foot.pitch = phase < 0.5 * kHeelOff ? HeelRise(phase, stride) : std::max(foot.pitch, HeelRise(phase, stride));
@@ -111,10 +119,7 @@ void StepFoot(Foot& foot, int side, double phase, double stride, const Body& bod
   }
   const double u = (phase - kStance) / (1.0 - kStance);
   const double w = MinimumJerk(u);
-  const double speed = body.v.norm();
-  const Vec2 way = speed > 1e-6 ? Vec2(body.v / speed) : Vec2::Zero();
-  const double reach = std::min(speed / 0.3, 1.0) * ((1.0 - phase) + kAhead) * stride;
-  const Vec2 target = Footfall(body, size, side, reach * way);
+  const Vec2 target = Footfall(body, size, side, share * ((1.0 - phase) + kAhead) * stride * way);
   const double lift = 0.02 + 0.035 * std::min(stride / kLongStride, 1.0);
   foot.ball.head<2>() = foot.lifted.head<2>() + w * (target - foot.lifted.head<2>());
   foot.ball.z() = foot.lifted.z() + w * (ground(target) - foot.lifted.z()) + lift * 4.0 * u * (1.0 - u);
@@ -170,9 +175,11 @@ void StepGait(GaitState& gait, const Body& body, double height, double dt, const
   const double speed = body.v.norm();
   const double stride = StrideLength(height, speed);
   constexpr double kTurnPerStep = 0.7;  // rad
+  constexpr double kSlow = 0.4;         // m/s, below which a step is finished by itself
   const bool on_one_leg = gait.feet[0].swings || gait.feet[1].swings;
-  const double advance = std::max({speed * dt / stride, std::abs(body.yaw_rate) * dt / (2.0 * kTurnPerStep),
-                                   on_one_leg ? 0.5 * dt / kStepTime : 0.0});
+  const double stopping = on_one_leg ? std::max(1.0 - speed / kSlow, 0.0) : 0.0;
+  const double advance = std::max(
+      {speed * dt / stride, std::abs(body.yaw_rate) * dt / (2.0 * kTurnPerStep), stopping * 0.5 * dt / kStepTime});
   gait.phase += advance;
   gait.phase -= std::floor(gait.phase);
   for (int side = 0; side < 2; ++side) {

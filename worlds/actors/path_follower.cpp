@@ -21,8 +21,13 @@ double SpeedForPath(const RoundedPath& path, double s, const RunLimits& limits) 
   return allowed;
 }
 
+double SpeedForPath(const RoundedPath& path, const Runner& runner, const RunLimits& limits) {
+  return std::min(SpeedForPath(path, runner.s, limits), SpeedForPath(path, runner.s + kRunLag * runner.speed, limits));
+}
+
 void Run(Runner& runner, double wanted, const RunLimits& limits, double dt) {
-  runner.acceleration = std::clamp((wanted - runner.speed) / std::max(0.2, dt), -2.0 * limits.brake, limits.accelerate);
+  runner.acceleration =
+      std::clamp((wanted - runner.speed) / std::max(kRunLag, dt), -2.0 * limits.brake, limits.accelerate);
   const double before = runner.speed;
   runner.speed = std::max(before + runner.acceleration * dt, 0.0);
   runner.s += 0.5 * (before + runner.speed) * dt;

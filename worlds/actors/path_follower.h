@@ -26,8 +26,12 @@ double StoppingSpeed(double brake, double room);
 /// Speed that the bends ahead allow at s: every point at distance d ahead allows √(v² + 2 b d) with v = √(lateral /
 /// |curvature|), and the end of an open path v = 0.
 double SpeedForPath(const RoundedPath& path, double s, const RunLimits& limits);
+/// The same for a runner, who is a lag late.
+double SpeedForPath(const RoundedPath& path, const Runner& runner, const RunLimits& limits);
 
-/// One tick towards `wanted` m/s.
+/// One tick towards the speed `wanted`, which is followed with a lag of kRunLag; who must slow down looks that far
+/// ahead.
+inline constexpr double kRunLag = 0.2;  // s
 void Run(Runner& runner, double wanted, const RunLimits& limits, double dt);
 
 }  // namespace alula::worlds
