@@ -48,14 +48,7 @@ void Describe(base::Description& d, WeatherConfig& c) {
            .max = 2.0 * kPi});
   d.Field("cloud", c.cloud, {.meaning = "share of the sky that is covered", .min = 0.0, .max = 1.0});
   d.Field("fog", c.fog, {.meaning = "even fog; null: none"});
-  d.Field("wind_speed_min", c.wind_speed_min,
-          {.unit = "m/s", .meaning = "least mean wind drawn", .min = 0.0, .max = 40.0});
-  d.Field("wind_speed_max", c.wind_speed_max,
-          {.unit = "m/s", .meaning = "largest mean wind drawn", .min = 0.0, .max = 40.0});
-  d.Field("gust_share", c.gust_share,
-          {.meaning = "standard deviation of gusts per axis over the mean wind's speed", .min = 0.0, .max = 1.0});
-  d.Field("gust_time", c.gust_time, {.unit = "s", .meaning = "correlation time of gusts", .min = 0.05, .max = 60.0});
-  d.Field("wind", c.wind, {.meaning = "in place of the wind that is drawn between these; null: theirs"});
+  d.Field("wind", c.wind, {.meaning = "moving air"});
   d.Check("sun_elevation", [&c]() -> std::string {
     if (!c.sun_elevation || c.hour == WeatherConfig::Hour::kNight) return {};
     const bool high = *c.sun_elevation > 10.0 * kDegree;
@@ -65,14 +58,10 @@ void Describe(base::Description& d, WeatherConfig& c) {
     }
     return {};
   });
-  d.Check("wind_speed_max", [&c] {
-    return c.wind_speed_max >= c.wind_speed_min ? std::string() : std::string("must not be below wind_speed_min");
-  });
-  d.Check("wind_speed_min", [&c] {
-    const double least = c.wind ? c.wind->speed : c.wind_speed_min;
-    return !c.fog || least <= 10.0 || c.fog->visibility > 1000.0
+  d.Check("fog", [&c] {
+    return !c.fog || c.wind.speed <= 10.0 || c.fog->visibility > 1000.0
                ? std::string()
-               : std::string("above 10 m/s contradicts fog, which such a wind blows away; drop one of them");
+               : std::string("contradicts a wind above 10 m/s, which blows it away; drop one of them");
   });
 }
 
@@ -96,15 +85,6 @@ Light DrawLight(const WeatherConfig& weather, std::uint64_t seed) {
   light.sky_brightness = hour.sky_brightness;
   light.fog = weather.fog;
   return light;
-}
-
-Wind DrawWind(const WeatherConfig& weather, std::uint64_t seed) {
-  if (weather.wind) return DrawWind(*weather.wind, seed);
-  base::RandomStream random(seed, "world/wind");
-  const double speed = random.Uniform(weather.wind_speed_min, weather.wind_speed_max);
-  const double direction = random.Uniform(-kPi, kPi);
-  return {
-      {speed * std::cos(direction), speed * std::sin(direction), 0.0}, speed * weather.gust_share, weather.gust_time};
 }
 
 }  // namespace alula::worlds

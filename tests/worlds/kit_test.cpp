@@ -154,8 +154,8 @@ TEST(Weather, ContradictionsAreSaid) {
   EXPECT_EQ(complaint(low), "sun_elevation must be at least 5 deg by day; or set hour: dusk");
   WeatherConfig storm;
   storm.fog = Fog{};
-  storm.wind_speed_min = storm.wind_speed_max = 15.0;
-  EXPECT_NE(complaint(storm).find("contradicts fog"), std::string::npos);
+  storm.wind.speed = 15.0;
+  EXPECT_NE(complaint(storm).find("fog contradicts a wind above 10 m/s"), std::string::npos);
 }
 
 }  // namespace

@@ -210,7 +210,7 @@ World MakeWorld(const PlanningMapConfig& config, std::uint64_t seed) {
     AddObstacles(world, looks, config, seed, masonry);
   }
   world.light = DrawLight(config.weather, seed);
-  world.wind = DrawWind(config.weather, seed);
+  world.wind = DrawWind(config.weather.wind, seed);
   world.X_WB_start = {base::FromYaw(0.25 * kPi), {kStart.x(), kStart.y(), kPadHeight}};
   world.target = {kTarget.x(), kTarget.y(), 1.5};
   world.bounds_low = {-kMapHalf, -kMapHalf, 0.0};
