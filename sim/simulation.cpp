@@ -184,8 +184,8 @@ void Simulation::StepBody() {
   Lap(kPhysics);
   const vehicles::BodyState& after = physics_->state();
   if (!IsFinite(after)) throw base::FaultError("numerical", "the vehicle's true state is not finite");
-  sensors_.Integrate(time_ + dt, before, after);
-  autopilot_imu_.Integrate(before, after);
+  sensors_.Integrate(time_ + dt, before, after, {.rotors = parts_.vehicle->Rotors()});
+  autopilot_imu_.Integrate(before, after, parts_.vehicle->Rotors());
   truth_ = {time_, time_ + dt, before, after};
   time_ += dt;
   Lap(kSensors);

@@ -36,11 +36,13 @@ class Quadrotor final : public VehicleModel {
       force_B += load.force_B;
       torque_B += p_BR.cross(load.force_B) + load.torque_B;
       power += load.shaft_power;
+      turning_[i] = {rotors_[i].speed(), layout_.rotors[i].spin};
     }
     battery_.Step(power, dt);
     return {state.X_WB.q * force_B, state.X_WB.q * torque_B};
   }
 
+  std::span<const RotorState> Rotors() const override { return turning_; }
   int Motors() const override { return kRotors; }
   void Impair(const Impairment& broken) override {
     for (std::size_t i = 0; i < kRotors; ++i) {
@@ -68,6 +70,7 @@ class Quadrotor final : public VehicleModel {
   QuadrotorConfig config_;
   QuadrotorLayout layout_;
   std::array<Rotor, kRotors> rotors_;
+  std::array<RotorState, kRotors> turning_{};
   vehicles::Battery battery_;
 };
 

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,12 @@ struct Impairment {
   double battery_voltage = 1.0;      // share of its open-circuit voltage
 };
 
+/// What one rotor does at the moment, for what feels it besides the body.
+struct RotorState {
+  double speed = 0.0;  // rad/s relative to the body
+  double spin = 1.0;   // +1 counter-clockwise seen from above
+};
+
 /// Inner quantities worth recording, each with its name and unit ("rotor0_rad_s").
 struct TelemetryValue {
   std::string name;
@@ -78,6 +85,8 @@ class VehicleModel {
   /// `wind_W`: air velocity at the vehicle, m/s.
   virtual Wrench Step(const BodyState& state, const ActuatorCommand& command, const base::Vec3& wind_W,
                       base::Duration dt) = 0;
+  /// Rotors after the last step; none where nothing turns.
+  virtual std::span<const RotorState> Rotors() const { return {}; }
   /// Motors that may fail.
   virtual int Motors() const { return 0; }
   /// From the next step on this is broken, and nothing else.

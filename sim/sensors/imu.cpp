@@ -36,6 +36,7 @@ void Describe(base::Description& d, ImuConfig& c) {
   d.Field("orientation", c.orientation, {.unit = "rad", .meaning = "of the IMU in the body frame: yaw, pitch, roll"});
   d.Field("bandwidth", c.bandwidth, {.unit = "Hz", .meaning = "-3 dB of the second-order low-pass", .min = 1});
   DescribeNoise(d, c.noise);
+  d.Field("errors", c.errors, {.meaning = "scale, axes, temperature, vibration and quantum; absent: none of them"});
 }
 
 ImuConfig AutopilotImuDefaults() {
@@ -77,6 +78,10 @@ Imu::Imu(const ImuConfig& config, base::Duration physics_step, std::uint64_t see
   filter_.a1 = 2.0 * (k * k - 1.0) * norm;
   filter_.a2 = (1.0 - std::numbers::sqrt2 * k + k * k) * norm;
   delay_ = base::Seconds(step_.Seconds() * (0.5 + std::numbers::sqrt2 / (2.0 * k)));
+
+  if (config.errors && config.errors->vibration) {
+    vibration_.emplace(*config.errors->vibration, 2.0 * std::numbers::pi * config.bandwidth, seed, name + ".vibration");
+  }
 }
 
 void Imu::Settle(const vehicles::BodyState& state) {
@@ -85,7 +90,8 @@ void Imu::Settle(const vehicles::BodyState& state) {
   filter_.Settle(rest);
 }
 
-void Imu::Integrate(const vehicles::BodyState& before, const vehicles::BodyState& after) {
+void Imu::Integrate(const vehicles::BodyState& before, const vehicles::BodyState& after,
+                    std::span<const vehicles::RotorState> rotors) {
   const base::Vec3 v_WI_before = before.v_WB + before.X_WB.q * before.w_B.cross(X_BI_.p);
   const base::Vec3 v_WI_after = after.v_WB + after.X_WB.q * after.w_B.cross(X_BI_.p);
   const base::Vec3 a_W = (v_WI_after - v_WI_before) / step_.Seconds();
@@ -93,17 +99,50 @@ void Imu::Integrate(const vehicles::BodyState& before, const vehicles::BodyState
   truth << X_BI_.q.conjugate() * (0.5 * (before.w_B + after.w_B)),
       (after.X_WB.q * X_BI_.q).conjugate() * (a_W + base::Vec3(0.0, 0.0, base::kGravity));
   filter_.Push(truth);
+  if (vibration_) vibration_->Turn(rotors, step_);
 }
 
-stack::ImuSample Imu::Sample() {
+double Imu::Warmth() const {
+  return AboveCalibration(config_.errors->temperature, static_cast<double>(samples_) / config_.rate.Hz());
+}
+
+base::Vec3 Imu::gyro_bias() const {
+  return config_.errors ? base::Vec3(gyro_bias_ + Warmth() * config_.errors->gyro.bias_per_kelvin) : gyro_bias_;
+}
+
+base::Vec3 Imu::accelerometer_bias() const {
+  return config_.errors ? base::Vec3(accelerometer_bias_ + Warmth() * config_.errors->accelerometer.bias_per_kelvin)
+                        : accelerometer_bias_;
+}
+
+base::Vec6 Imu::Sensed(base::Duration ago) const {
+  if (!config_.errors) return filter_.out;
+  base::Vec3 w = filter_.out.head<3>(), f = filter_.out.tail<3>();
+  if (vibration_) {
+    const RotorVibration::Reading shaken = vibration_->At(ago);
+    w += X_BI_.q.conjugate() * shaken.angular_velocity;
+    f += X_BI_.q.conjugate() * shaken.specific_force;
+  }
+  base::Vec6 sensed;
+  sensed << SensingMatrix(config_.errors->gyro, Warmth()) * w + config_.errors->GSensitivity() * f,
+      SensingMatrix(config_.errors->accelerometer, Warmth()) * f;
+  return sensed;
+}
+
+stack::ImuSample Imu::Sample(base::Duration ago) {
   const stack::ImuNoise& n = config_.noise;
   const double root_rate = std::sqrt(config_.rate.Hz());
-  const base::Vec3 gyro = filter_.out.head<3>() + gyro_bias_ + n.gyro_noise * root_rate * gyro_stream_.GaussianVec3();
-  const base::Vec3 accelerometer = filter_.out.tail<3>() + accelerometer_bias_ +
-                                   n.accelerometer_noise * root_rate * accelerometer_stream_.GaussianVec3();
+  const base::Vec6 sensed = Sensed(ago);
+  base::Vec3 gyro = sensed.head<3>() + gyro_bias() + n.gyro_noise * root_rate * gyro_stream_.GaussianVec3();
+  base::Vec3 accelerometer = sensed.tail<3>() + accelerometer_bias() +
+                             n.accelerometer_noise * root_rate * accelerometer_stream_.GaussianVec3();
   gyro_bias_ += n.gyro_bias_walk / root_rate * bias_stream_.GaussianVec3();
   accelerometer_bias_ += n.accelerometer_bias_walk / root_rate * bias_stream_.GaussianVec3();
-  return {Clamp(gyro, n.gyro_range), Clamp(accelerometer, n.accelerometer_range)};
+  ++samples_;
+  gyro = Clamp(gyro, n.gyro_range);
+  accelerometer = Clamp(accelerometer, n.accelerometer_range);
+  if (!config_.errors) return {gyro, accelerometer};
+  return {Quantise(gyro, config_.errors->gyro.quantum), Quantise(accelerometer, config_.errors->accelerometer.quantum)};
 }
 
 }  // namespace alula::sim

@@ -108,8 +108,9 @@ void SensorSuite::Soil(const std::map<stack::SensorId, render::Dirt>& dirt) {
   if (cameras_) cameras_->Soil(dirt);
 }
 
-void SensorSuite::Integrate(base::Time t, const vehicles::BodyState& before, const vehicles::BodyState& after) {
-  if (imu_) imu_->Integrate(before, after);
+void SensorSuite::Integrate(base::Time t, const vehicles::BodyState& before, const vehicles::BodyState& after,
+                            const Ambience& ambience) {
+  if (imu_) imu_->Integrate(before, after, ambience.rotors);
   if (cameras_) cameras_->Integrate(t, after, step_);
 }
 
@@ -125,7 +126,7 @@ void SensorSuite::MeasureInertia(base::Time end) {
   while (imu_ && imu_clock_.Due(end)) {
     const base::Time now = imu_clock_.Next();
     const base::Time captured{now.ns - imu_->delay().ns};
-    const stack::ImuSample sample = imu_->Sample();
+    const stack::ImuSample sample = imu_->Sample(end - now);
     if (captured.ns >= 0) Push({kImu, imu_seq_++, captured, now, sample});
   }
 }

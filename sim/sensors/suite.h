@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/describe.h"
+#include "sim/ambience.h"
 #include "sim/faults/fault.h"
 #include "sim/sensors/barometer.h"
 #include "sim/sensors/camera_suite.h"
@@ -72,7 +73,8 @@ class SensorSuite {
   /// Turns a gimbal. Throws base::FaultError ("stack_command") for one that is not there.
   void Obey(const stack::GimbalSetpoint& setpoint);
   /// Every physics step (its end is `t`), for what is integrated inside.
-  void Integrate(base::Time t, const vehicles::BodyState& before, const vehicles::BodyState& after);
+  void Integrate(base::Time t, const vehicles::BodyState& before, const vehicles::BodyState& after,
+                 const Ambience& ambience = {});
   /// Takes every sample that falls into the window (begin, end].
   void Measure(const TruthWindow& truth, const OwnReports& reports);
   /// Moves everything with available ≤ now to `out` (cleared first), in the order of stack::ArrivesBefore.
