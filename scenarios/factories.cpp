@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "worlds/check_start.h"
 
 namespace alula::scenarios {
 namespace {
@@ -17,8 +18,10 @@ Overloaded(Ts...) -> Overloaded<Ts...>;
 }  // namespace
 
 std::shared_ptr<const worlds::World> MakeWorld(const WorldConfig& config, std::uint64_t seed) {
-  return std::make_shared<const worlds::World>(
+  auto world = std::make_shared<const worlds::World>(
       std::visit([&](const auto& c) { return worlds::MakeWorld(c, seed); }, config));
+  worlds::CheckStart(*world);
+  return world;
 }
 
 std::unique_ptr<vehicles::VehicleModel> MakeVehicle(const VehicleConfig& config, const std::string& name) {

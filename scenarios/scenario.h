@@ -31,6 +31,11 @@
 #include "worlds/courtyard.h"
 #include "worlds/maps/planning_map.h"
 #include "worlds/open_ground.h"
+#include "worlds/outdoor/forest.h"
+#include "worlds/outdoor/landing_town.h"
+#include "worlds/outdoor/landing_woods.h"
+#include "worlds/outdoor/open_field.h"
+#include "worlds/outdoor/powerline.h"
 #include "worlds/scene.h"
 
 namespace alula::scenarios {
@@ -43,7 +48,10 @@ inline void Describe(base::Description&, None&) {}
 // the one place that names concrete worlds, vehicles, autopilots, stacks and criteria. A world's config says its own
 // word (kType), and worlds::MakeWorld makes it: its entry here is all that it needs.
 using WorldConfig =
-    std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig, worlds::PlanningMapConfig, worlds::SceneConfig>;
+    std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig, worlds::PlanningMapConfig, worlds::SceneConfig,
+                 worlds::ForestConfig, worlds::OpenFieldConfig, worlds::LandingForestConfig, worlds::LandingSlopeConfig,
+                 worlds::LandingFieldConfig, worlds::LandingSquareConfig, worlds::LandingFlowerbedsConfig,
+                 worlds::PowerlineConfig>;
 using VehicleConfig = std::variant<vehicles::QuadrotorConfig, vehicles::PrescribedConfig>;
 using AutopilotConfig = std::variant<None, vehicles::MulticopterAutopilotConfig>;
 using StackConfig =

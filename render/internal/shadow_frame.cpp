@@ -5,7 +5,11 @@
 
 namespace alula::render::internal {
 
-ShadowFrame FrameShadow(const base::Vec3& to_sun_W, const base::Vec3& low, const base::Vec3& high) {
+namespace {
+
+/// As the sun sees them: `low` and `high` across the light, [far_low, far_high] along it.
+ShadowFrame FrameBoxes(const base::Vec3& to_sun_W, const base::Vec3& low, const base::Vec3& high,
+                       const base::Vec3& far_low, const base::Vec3& far_high) {
   const base::Vec3 z = to_sun_W.normalized();
   const base::Vec3 x = (std::abs(z.z()) < 0.99 ? base::Vec3::UnitZ() : base::Vec3::UnitY()).cross(z).normalized();
   base::Mat3 R_SW;
@@ -16,8 +20,11 @@ ShadowFrame FrameShadow(const base::Vec3& to_sun_W, const base::Vec3& low, const
   for (int corner = 0; corner < 8; ++corner) {
     const base::Vec3 p((corner & 1) != 0 ? high.x() : low.x(), (corner & 2) != 0 ? high.y() : low.y(),
                        (corner & 4) != 0 ? high.z() : low.z());
-    near_S = near_S.cwiseMin(R_SW * p);
-    far_S = far_S.cwiseMax(R_SW * p);
+    const base::Vec3 q((corner & 1) != 0 ? far_high.x() : far_low.x(), (corner & 2) != 0 ? far_high.y() : far_low.y(),
+                       (corner & 4) != 0 ? far_high.z() : far_low.z());
+    const base::Vec3 p_S(x.dot(p), z.cross(x).dot(p), z.dot(q));
+    near_S = near_S.cwiseMin(p_S);
+    far_S = far_S.cwiseMax(p_S);
   }
   constexpr double kMargin = 0.05;  // m along the light, so that nothing lies on the ends of the depth range
   constexpr double kRim = 1.0 + 4.0 / kShadowSide;
@@ -39,6 +46,12 @@ ShadowFrame FrameShadow(const base::Vec3& to_sun_W, const base::Vec3& low, const
   return frame;
 }
 
+}  // namespace
+
+ShadowFrame FrameShadow(const base::Vec3& to_sun_W, const base::Vec3& low, const base::Vec3& high) {
+  return FrameBoxes(to_sun_W, low, high, low, high);
+}
+
 ShadowFrame FrameShadow(const worlds::World& world, const Eigen::Vector3f& statics_low,
                         const Eigen::Vector3f& statics_high) {
   constexpr double kBeyond = 3.0;  // m
@@ -48,7 +61,11 @@ ShadowFrame FrameShadow(const worlds::World& world, const Eigen::Vector3f& stati
     low.head<2>() = low.head<2>().cwiseMax((world.bounds_low.head<2>().array() - kBeyond).matrix()).eval();
     high.head<2>() = high.head<2>().cwiseMin((world.bounds_high.head<2>().array() + kBeyond).matrix()).eval();
   }
-  return FrameShadow(world.light.to_sun_W, low, high.cwiseMax(low));
+  high = high.cwiseMax(low).eval();
+  // Along the light the frame reaches over all statics: land beyond the bounds that lay behind the frame's far end would
+  // be dark, and what stands before its near end would cast no shadow.
+  return FrameBoxes(world.light.to_sun_W, low, high, low.cwiseMin(statics_low.cast<double>()),
+                    high.cwiseMax(statics_high.cast<double>()));
 }
 
 ShadowRegion RegionOf(const Eigen::Matrix4d& texture_from_box, const Eigen::Vector3f& low,
