@@ -1,7 +1,8 @@
 // What a picture costs: grey stereo pairs with shadows, trilinear textures and the sensor's noise; depth; colour. By
 // maker, on a yard of about 25 k triangles of our own, on the courtyard of the first mission, and on a hall and a
 // forest of 90 k triangles; beside them `osmesa_plain`, a textured draw of all triangles by OSMesa without culling,
-// levels of detail or shadows (with the same noise). One core (LP_NUM_THREADS=0 as the program sets it); medians of
+// levels of detail or shadows (with the same noise). Then every other world of the catalog: how long it takes to make,
+// its triangles and objects, and a stereo pair. One core (LP_NUM_THREADS=0 as the program sets it); medians of
 // thread time.
 #include <algorithm>
 #include <cmath>
@@ -18,6 +19,9 @@
 #include "render/camera_renderer.h"
 #include "render/plain_reference.h"
 #include "render/sensor_effects.h"
+#include "scenarios/factories.h"
+#include "scenarios/gallery/viewpoints.h"
+#include "scenarios/scenario.h"
 #include "worlds/courtyard.h"
 
 namespace alula::bench {
@@ -134,6 +138,23 @@ void MeasurePair(int n, Candidate& c) {
   c.pair.Add(n, ThreadMs() - start);
 }
 
+/// The same of one place, ms.
+double PairMs(render::CameraRenderer& renderer, const base::Transform& X_WC, std::size_t n) {
+  render::View view;
+  view.X_WC = X_WC;
+  view.intrinsics = scenarios::gallery::WideCamera(752, 480);
+  view.draw_movers = false;
+  render::Picture left;
+  render::Picture right;
+  const double start = ThreadMs();
+  renderer.Grey(view, left);
+  view.X_WC = view.X_WC * base::Transform{base::Quat::Identity(), {0.11, 0, 0}};
+  renderer.Grey(view, right);
+  render::ApplyPixelNoise(left, 2 * n, {});
+  render::ApplyPixelNoise(right, 2 * n + 1, {});
+  return ThreadMs() - start;
+}
+
 void MeasureDepthAndColour(int n, Candidate& c) {
   render::DepthPicture depth;
   const double start = ThreadMs();
@@ -188,6 +209,38 @@ void Measure(const std::string& name, const worlds::World& world, Figures& figur
   }
 }
 
+/// Stereo pairs of a world of the catalog from where a gallery looks at it and from random free places, by raster and by
+/// OSMesa; how long the world takes to make, and to hand over to each.
+void MeasureCatalogWorld(const scenarios::CatalogEntry& entry, Figures& figures) {
+  constexpr std::uint64_t kSeed = 1;
+  constexpr int kPlaces = 12;
+  constexpr int kRounds = 3;
+  const std::string key = "render/" + entry.name + "/";
+  const double start = ThreadMs();
+  const auto world = scenarios::MakeWorld(scenarios::LoadWorld(entry.file, {}, kSeed), kSeed);
+  figures.Add(key + "world/load_ms", ThreadMs() - start);
+  figures.Add(key + "world/triangles_1", TrianglesOf(*world));
+  figures.Add(key + "world/objects_1", static_cast<double>(world->objects.size()));
+  std::vector<base::Transform> places = scenarios::gallery::RandomViewpoints(*world, kPlaces, kSeed);
+  for (const auto& view : scenarios::gallery::NamedViewpoints(*world)) places.push_back(view.X_WC);
+  for (const char* maker : {"osmesa", "raster"}) {
+    try {
+      const double begun = ThreadMs();
+      const auto renderer = render::MakeRenderer(maker, *world, {});
+      figures.Add(key + maker + "/making_ms", ThreadMs() - begun);
+      Costs costs;
+      for (int round = 0; round < kRounds; ++round) {
+        for (std::size_t n = 0; n < places.size(); ++n) {
+          costs.Add(static_cast<int>(n), PairMs(*renderer, places[n], n));
+        }
+      }
+      figures.Add(key + maker + "/stereo_pair_752x480_ms", costs.Median());
+    } catch (const base::InputError&) {
+      continue;  // this maker is not installed here
+    }
+  }
+}
+
 }  // namespace
 
 void Run_render(Figures& figures) {
@@ -197,6 +250,9 @@ void Run_render(Figures& figures) {
                                     {"synthetic_forest", SyntheticForest(1)}}) {
     figures.Add(std::string("render/") + name + "/world/triangles_1", TrianglesOf(world));
     Measure(name, world, figures);
+  }
+  for (const scenarios::CatalogEntry& entry : scenarios::ListCatalogs()) {
+    if (entry.kind == "world" && entry.name != "courtyard") MeasureCatalogWorld(entry, figures);  // it stands above
   }
 }
 

@@ -29,6 +29,8 @@ int Main(int argc, char** argv) {
       return commands::CheckSensors(line);
     case CommandLine::Verb::kCheckTextures:
       return commands::CheckTextures(line);
+    case CommandLine::Verb::kCheckLanding:
+      return commands::CheckLanding(line);
     case CommandLine::Verb::kGallery:
       return commands::Gallery(line);
     case CommandLine::Verb::kBench:

@@ -36,7 +36,19 @@ struct SweepLine {
 
 /// The command line, understood.
 struct CommandLine {
-  enum class Verb { kRun, kExport, kSweep, kReplay, kList, kCheck, kCheckSensors, kCheckTextures, kGallery, kBench };
+  enum class Verb {
+    kRun,
+    kExport,
+    kSweep,
+    kReplay,
+    kList,
+    kCheck,
+    kCheckSensors,
+    kCheckTextures,
+    kCheckLanding,
+    kGallery,
+    kBench
+  };
   Verb verb = Verb::kList;
   std::vector<std::string> names;  // of scenarios, files, runs or benchmarks
   std::optional<std::uint64_t> seed;
@@ -53,6 +65,7 @@ struct CommandLine {
   bool gallery = false;             // export: worlds in place of a flight
   bool all = false;                 // run: every scenario of the catalog
   std::string tag;                  // of those
+  int drops = 200;   // check landing: on safe cells
   bool diff = false;
   bool quiet = false;
   std::filesystem::path json;   // file of figures or verdicts; "-": standard output; empty: none

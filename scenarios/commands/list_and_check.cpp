@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "scenarios/check/landing_check.h"
 #include "scenarios/check/sensor_checks.h"
 #include "scenarios/commands/verbs.h"
 #include "scenarios/exit_codes.h"
@@ -74,6 +75,29 @@ int CheckSensors(const CommandLine& line) {
   if (line.json != "-") std::fputs(check::ToTable(report).c_str(), stdout);
   if (!line.json.empty()) WriteFile("--json", line.json, check::ToJson(report, scenario.name));
   return report.passed() ? 0 : kExitFailed;
+}
+
+int CheckLanding(const CommandLine& line) {
+  const CatalogEntry entry = FindAny(line.names.front());
+  if (entry.kind != "world") {
+    throw base::InputError(line.names.front() + ": is a " + entry.kind + ", no world ('alula list worlds' names them)");
+  }
+  const std::uint64_t seed = line.seed.value_or(1);
+  const auto world = MakeWorld(LoadWorld(entry.file, line.overrides, seed), seed);
+  const auto vehicle = MakeVehicle(LoadVehicle(FindAny("q250").file, {}, seed), check::kVehicle);
+  const check::LandingReport report = check::CheckLandingSites(*world, vehicle->body(), line.drops, seed);
+  if (line.out) {
+    std::filesystem::create_directories(*line.out);
+    WriteFile("--out", *line.out / "grid.pgm", check::ToPgm(report.sites));
+    WriteFile("--out", *line.out / "grid.yaml", check::ToMapYaml(report.sites));
+  }
+  const bool passed = check::Passed(report);
+  if (line.json != "-") {
+    std::printf("%s%s: %s, seed %llu\n", check::ToTable(report).c_str(), entry.name.c_str(), passed ? "pass" : "fail",
+                static_cast<unsigned long long>(seed));
+  }
+  if (!line.json.empty()) WriteFile("--json", line.json, check::ToJson(report, entry.name));
+  return passed ? kExitPassed : kExitFailed;
 }
 
 }  // namespace alula::scenarios::commands

@@ -198,6 +198,7 @@ struct Check {
   CLI::App* files = nullptr;
   CLI::App* sensors = nullptr;
   CLI::App* textures = nullptr;
+  CLI::App* landing = nullptr;
 };
 Check AddCheck(CLI::App& app, CommandLine& line, Raw& raw) {
   Check check;
@@ -218,7 +219,15 @@ Check AddCheck(CLI::App& app, CommandLine& line, Raw& raw) {
       ->check(CLI::Range(1, 10'000));
   AddRender(*check.textures, line);
   AddJson(*check.textures, raw, "the table");
-  for (CLI::App* verb : {check.files, check.sensors, check.textures}) {
+  check.landing = check.files->add_subcommand(
+      "landing", "find where a world is safe to land on from its geometry, and check it by dropping the q250 there; 1 "
+                 "where it stands on less than 99 %");
+  check.landing->add_option("world", raw.name, "a name of the catalog or a YAML file")->required();
+  check.landing->add_option("--drops", line.drops, "on safe cells; half as many on others (default: 200)")
+      ->check(CLI::Range(1, 100'000));
+  check.landing->add_option("--out", raw.out, "folder for the mask: grid.pgm and grid.yaml, as ROS maps");
+  AddJson(*check.landing, raw, "the report");
+  for (CLI::App* verb : {check.files, check.sensors, check.textures, check.landing}) {
     AddSet(*verb, raw);
     verb->add_option("--seed", raw.seed, "from which distributions are drawn");
   }
@@ -305,7 +314,11 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
   if (check.sensors->parsed() && !line.names.empty()) {
     throw base::InputError("check sensors: takes one scenario ('alula check sensors --help')");
   }
-  std::size_t seeds = check.sensors->count("--seed") + check.textures->count("--seed") + check.files->count("--seed");
+  if (check.landing->parsed() && !line.names.empty()) {
+    throw base::InputError("check landing: takes one world ('alula check landing --help')");
+  }
+  std::size_t seeds = 0;
+  for (const CLI::App* verb : {check.files, check.sensors, check.textures, check.landing}) seeds += verb->count("--seed");
   for (const CLI::App* verb : {run, dataset, sweep}) seeds += verb->count("--seed");
   if (seeds > 0) line.seed = raw.seed;
   Understand(raw, line);
@@ -326,6 +339,8 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
     line.verb = CommandLine::Verb::kCheckSensors;
   } else if (check.textures->parsed()) {
     line.verb = CommandLine::Verb::kCheckTextures;
+  } else if (check.landing->parsed()) {
+    line.verb = CommandLine::Verb::kCheckLanding;
   } else if (check.files->parsed()) {
     if (line.names.empty()) throw base::InputError("check: files is required ('alula check --help' shows how)");
     line.verb = CommandLine::Verb::kCheck;

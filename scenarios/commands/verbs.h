@@ -9,6 +9,7 @@ int Run(const CommandLine& line);
 int Export(const CommandLine& line);
 int Gallery(const CommandLine& line);
 int CheckTextures(const CommandLine& line);
+int CheckLanding(const CommandLine& line);
 int List(const CommandLine& line);
 int CheckFiles(const CommandLine& line);
 int CheckSensors(const CommandLine& line);
