@@ -76,7 +76,7 @@ TreeModel Broadleaf(double height, RandomStream& random) {
   const Vec3 heart(0.0, 0.0, 0.62 * height);
   constexpr int kBoughs = 6;
   const double half = std::clamp(0.12 * height, 0.5, 1.25);
-  const Vec3 core(0.36 * model.reach, 0.36 * model.reach, 0.15 * height);
+  const Vec3 core(0.33 * model.reach, 0.33 * model.reach, 0.14 * height);
   model.heart = CrownHeart(heart, core, random);
   const auto clump = [&](const Vec3& middle, double spread, int cards) {
     for (int i = 0; i < cards; ++i) {
@@ -98,13 +98,12 @@ TreeModel Broadleaf(double height, RandomStream& random) {
     const double thick = model.trunk_radius * (0.5 - 0.28 * share);
     const std::array<TubePoint, 3> bough{{{root, thick}, {knee, 0.7 * thick}, {tip, 0.22 * thick}}};
     AddTube(*boughs, bough, 3, 0.6);
-    clump(tip, 0.4 * half, 2);
+    clump(tip, 0.3 * half, 1);
     clump(root + 0.85 * out * Level(angle + 0.5) + Vec3(0.0, 0.0, rise), 0.3 * half, 1);
-    clump(0.5 * (knee + tip), 0.4 * half, 1);
   }
   clump({0.0, 0.0, 0.86 * height}, 0.5 * half, 3);
-  for (int i = 0; i < 5; ++i) {  // about the heart, from below too
-    const Vec3 out(Level(1.257 * i + random.Uniform(-0.3, 0.3)) + Vec3(0.0, 0.0, random.Uniform(-0.9, 0.3)));
+  for (int i = 0; i < 4; ++i) {  // about the heart, from below too
+    const Vec3 out(Level(1.571 * i + random.Uniform(-0.3, 0.3)) + Vec3(0.0, 0.0, random.Uniform(-0.9, 0.3)));
     clump(heart + 0.95 * out.normalized().cwiseProduct(core), 0.1 * half, 1);
   }
   model.boughs = std::move(boughs);
@@ -188,7 +187,7 @@ PlantLooks AddTreeLooks(World& world, TreeKind kind, const std::string& name, st
                            {.pattern = Pattern::kBark, .palette = bark, .size = 256, .contrast = 0.2, .infrared = 1.2F}, seed);
   looks.leaves = AddFoliageMaterial(world, name + "/leaves", foliage, seed);
   looks.dense = AddMaterial(world, name + "/dense",
-                            {.pattern = Pattern::kFoliage, .palette = {0.9F * foliage.leaves.dark, 0.95F * foliage.leaves.light},
+                            {.pattern = Pattern::kFoliage, .palette = {foliage.leaves.dark, foliage.leaves.light},
                              .size = 256, .contrast = 0.25, .infrared = 1.9F}, seed);
   return looks;
 }

@@ -12,7 +12,7 @@ namespace alula::worlds {
 struct ForestConfig {
   static constexpr std::string_view kType = "forest";
 
-  int trees = 70;                  // in the 64 m × 64 m of the field, at most
+  int trees = 64;                  // in the 64 m × 64 m of the field, at most
   double tree_height_min = 6.5;    // m
   double tree_height_max = 10.0;   // m
   double spacing = 3.0;            // least distance between stems, m
