@@ -184,7 +184,7 @@ void FinishWorld(World& world, const Land& land, const WeatherConfig& weather, d
   std::vector<Lamp> lamps = std::move(world.light.lamps);
   world.light = DrawLight(weather, seed);
   world.light.lamps = std::move(lamps);
-  world.wind = DrawWind(weather, seed);
+  world.wind = DrawWind(weather.wind, seed);
   const auto [low, high] = std::minmax_element(land.field.z.begin(), land.field.z.end());
   const double ceiling = std::max(static_cast<double>(*high), world.X_WB_start.p.z()) + top;
   world.bounds_low = {-land.half.x(), -land.half.y(), std::min(static_cast<double>(*low), 0.0) - 0.5};
