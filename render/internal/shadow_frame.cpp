@@ -22,7 +22,8 @@ ShadowFrame FrameBoxes(const base::Vec3& to_sun_W, const base::Vec3& low, const 
                        (corner & 4) != 0 ? high.z() : low.z());
     const base::Vec3 q((corner & 1) != 0 ? far_high.x() : far_low.x(), (corner & 2) != 0 ? far_high.y() : far_low.y(),
                        (corner & 4) != 0 ? far_high.z() : far_low.z());
-    const base::Vec3 p_S(x.dot(p), z.cross(x).dot(p), z.dot(q));
+    base::Vec3 p_S = R_SW * p;
+    p_S.z() = (R_SW * q).z();
     near_S = near_S.cwiseMin(p_S);
     far_S = far_S.cwiseMax(p_S);
   }
