@@ -209,8 +209,8 @@ void Measure(const std::string& name, const worlds::World& world, Figures& figur
   }
 }
 
-/// Stereo pairs of a world of the catalog from where a gallery looks at it and from random free places, by raster and by
-/// OSMesa; how long the world takes to make, and to hand over to each.
+/// Stereo pairs of a world of the catalog from where a gallery looks at it and from random free places, by raster and
+/// by OSMesa; how long the world takes to make, and to hand over to each.
 void MeasureCatalogWorld(const scenarios::CatalogEntry& entry, Figures& figures) {
   constexpr std::uint64_t kSeed = 1;
   constexpr int kPlaces = 12;

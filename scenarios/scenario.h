@@ -47,11 +47,10 @@ inline void Describe(base::Description&, None&) {}
 // What a scenario can be made of. These lists, the words for them in scenario.cpp and the makers in factories.cpp are
 // the one place that names concrete worlds, vehicles, autopilots, stacks and criteria. A world's config says its own
 // word (kType), and worlds::MakeWorld makes it: its entry here is all that it needs.
-using WorldConfig =
-    std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig, worlds::PlanningMapConfig, worlds::SceneConfig,
-                 worlds::ForestConfig, worlds::OpenFieldConfig, worlds::LandingForestConfig, worlds::LandingSlopeConfig,
-                 worlds::LandingFieldConfig, worlds::LandingSquareConfig, worlds::LandingFlowerbedsConfig,
-                 worlds::PowerlineConfig>;
+using WorldConfig = std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig, worlds::PlanningMapConfig,
+                                 worlds::SceneConfig, worlds::ForestConfig, worlds::OpenFieldConfig,
+                                 worlds::LandingForestConfig, worlds::LandingSlopeConfig, worlds::LandingFieldConfig,
+                                 worlds::LandingSquareConfig, worlds::LandingFlowerbedsConfig, worlds::PowerlineConfig>;
 using VehicleConfig = std::variant<vehicles::QuadrotorConfig, vehicles::PrescribedConfig>;
 using AutopilotConfig = std::variant<None, vehicles::MulticopterAutopilotConfig>;
 using StackConfig =

@@ -52,10 +52,12 @@ void CheckStart(const World& world) {
   if (ground && start.z() - *surface <= kGap) return;
   char text[160];
   if (ground) {
-    std::snprintf(text, sizeof text, "the start at (%.2f, %.2f, %.2f) m hangs %.2f m above the ground; move it down or the ground up",
+    std::snprintf(text, sizeof text,
+                  "the start at (%.2f, %.2f, %.2f) m hangs %.2f m above the ground; move it down or the ground up",
                   start.x(), start.y(), start.z(), start.z() - *surface);
   } else {
-    std::snprintf(text, sizeof text, "there is no ground under the start at (%.2f, %.2f, %.2f) m; move it, or make the ground larger",
+    std::snprintf(text, sizeof text,
+                  "there is no ground under the start at (%.2f, %.2f, %.2f) m; move it, or make the ground larger",
                   start.x(), start.y(), start.z());
   }
   throw base::InputError("world: " + std::string(text));

@@ -63,8 +63,8 @@ ShadowFrame FrameShadow(const worlds::World& world, const Eigen::Vector3f& stati
     high.head<2>() = high.head<2>().cwiseMin((world.bounds_high.head<2>().array() + kBeyond).matrix()).eval();
   }
   high = high.cwiseMax(low).eval();
-  // Along the light the frame reaches over all statics: land beyond the bounds that lay behind the frame's far end would
-  // be dark, and what stands before its near end would cast no shadow.
+  // Along the light the frame reaches over all statics: land beyond the bounds that lay behind the frame's far end
+  // would be dark, and what stands before its near end would cast no shadow.
   return FrameBoxes(world.light.to_sun_W, low, high, low.cwiseMin(statics_low.cast<double>()),
                     high.cwiseMax(statics_high.cast<double>()));
 }

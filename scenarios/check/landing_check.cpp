@@ -69,7 +69,8 @@ int LandingReport::Count(bool safe) const {
 
 double LandingReport::StoodShare(bool safe) const {
   const int count = Count(safe);
-  const auto stood = std::count_if(drops.begin(), drops.end(), [safe](const Drop& d) { return d.safe == safe && d.stood; });
+  const auto stood =
+      std::count_if(drops.begin(), drops.end(), [safe](const Drop& d) { return d.safe == safe && d.stood; });
   return count == 0 ? 1.0 : static_cast<double>(stood) / count;
 }
 
@@ -104,7 +105,8 @@ Drop DropAt(const worlds::World& world, const std::vector<Extent>& extents, cons
     physics.Step({}, dt);
     if (n == steps / 2) half_way = physics.state().X_WB.p.head<2>();
     for (const sim::Contact& contact : physics.contacts()) {
-      if (!contact.may_touch && drop.touched.empty()) drop.touched = fmt::format("{} on {}", contact.part, contact.object);
+      if (!contact.may_touch && drop.touched.empty())
+        drop.touched = fmt::format("{} on {}", contact.part, contact.object);
     }
   }
   const vehicles::BodyState& end = physics.state();
@@ -149,8 +151,8 @@ std::string ToTable(const LandingReport& report) {
                       report.Count(false));
   for (const Drop& drop : report.drops) {
     if (!drop.safe || drop.stood) continue;
-    text += fmt::format("  fell at ({:.2f}, {:.2f}) m: tilt {:.1f} deg, slid {:.3f} m, speed {:.3f} m/s{}{}\n", drop.at.x(),
-                        drop.at.y(), drop.tilt * 180.0 / std::numbers::pi, drop.slide, drop.speed,
+    text += fmt::format("  fell at ({:.2f}, {:.2f}) m: tilt {:.1f} deg, slid {:.3f} m, speed {:.3f} m/s{}{}\n",
+                        drop.at.x(), drop.at.y(), drop.tilt * 180.0 / std::numbers::pi, drop.slide, drop.speed,
                         drop.touched.empty() ? "" : ", ", drop.touched);
   }
   return text;

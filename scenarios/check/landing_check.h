@@ -10,8 +10,8 @@
 
 namespace alula::scenarios::check {
 
-/// How a drop is judged: the vehicle, level and with its motors off, falls from `low` to `high` above the highest ground
-/// under its hull and must stand after `seconds`.
+/// How a drop is judged: the vehicle, level and with its motors off, falls from `low` to `high` above the highest
+/// ground under its hull and must stand after `seconds`.
 struct DropConfig {
   double low = 0.02, high = 0.05;  // m
   double seconds = 2.0;

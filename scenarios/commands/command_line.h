@@ -65,7 +65,7 @@ struct CommandLine {
   bool gallery = false;             // export: worlds in place of a flight
   bool all = false;                 // run: every scenario of the catalog
   std::string tag;                  // of those
-  int drops = 200;   // check landing: on safe cells
+  int drops = 200;                  // check landing: on safe cells
   bool diff = false;
   bool quiet = false;
   std::filesystem::path json;   // file of figures or verdicts; "-": standard output; empty: none

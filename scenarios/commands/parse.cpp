@@ -220,8 +220,9 @@ Check AddCheck(CLI::App& app, CommandLine& line, Raw& raw) {
   AddRender(*check.textures, line);
   AddJson(*check.textures, raw, "the table");
   check.landing = check.files->add_subcommand(
-      "landing", "find where a world is safe to land on from its geometry, and check it by dropping the q250 there; 1 "
-                 "where it stands on less than 99 %");
+      "landing",
+      "find where a world is safe to land on from its geometry, and check it by dropping the q250 there; 1 "
+      "where it stands on less than 99 %");
   check.landing->add_option("world", raw.name, "a name of the catalog or a YAML file")->required();
   check.landing->add_option("--drops", line.drops, "on safe cells; half as many on others (default: 200)")
       ->check(CLI::Range(1, 100'000));
@@ -318,7 +319,8 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
     throw base::InputError("check landing: takes one world ('alula check landing --help')");
   }
   std::size_t seeds = 0;
-  for (const CLI::App* verb : {check.files, check.sensors, check.textures, check.landing}) seeds += verb->count("--seed");
+  for (const CLI::App* verb : {check.files, check.sensors, check.textures, check.landing})
+    seeds += verb->count("--seed");
   for (const CLI::App* verb : {run, dataset, sweep}) seeds += verb->count("--seed");
   if (seeds > 0) line.seed = raw.seed;
   Understand(raw, line);

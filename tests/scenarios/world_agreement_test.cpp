@@ -77,7 +77,8 @@ TEST_P(WorldAgreement, RaysMeetWhatIsSeen) {
   const auto whole = MakeWorld(LoadWorld(FindAny(GetParam()).file, {}, kSeed), kSeed);
   const worlds::World world = SolidPart(*whole);
   const auto renderer = render::MakeRenderer("raster", world, {});
-  const sim::PhysicsWorld physics(world, sim::testing::PlateOnLegs(), {.X_WB = {{1, 0, 0, 0}, {0, 0, 500}}, .v_WB = Vec3::Zero(), .w_B = Vec3::Zero()});
+  const sim::PhysicsWorld physics(world, sim::testing::PlateOnLegs(),
+                                  {.X_WB = {{1, 0, 0, 0}, {0, 0, 500}}, .v_WB = Vec3::Zero(), .w_B = Vec3::Zero()});
   const Caster caster{physics};
   const double sagitta = LargestSagitta(world);
   base::RandomStream random(kSeed, "test/agreement/" + GetParam());
@@ -85,7 +86,8 @@ TEST_P(WorldAgreement, RaysMeetWhatIsSeen) {
   int apart = 0;
   for (int pose = 0; pose < 6; ++pose) {
     render::View view;
-    const base::Quat q_WB = base::FromYawPitchRoll(random.Uniform(-M_PI, M_PI), random.Uniform(-0.3, 0.6), random.Uniform(-0.2, 0.2));
+    const base::Quat q_WB =
+        base::FromYawPitchRoll(random.Uniform(-M_PI, M_PI), random.Uniform(-0.3, 0.6), random.Uniform(-0.2, 0.2));
     view.X_WC = {q_WB * base::ForwardCameraRotation(), FreePlace(world, physics, random)};
     view.intrinsics = {752, 480, 448.0, 448.0, 375.5, 239.5, {}};
     render::DepthPicture depth;

@@ -23,7 +23,7 @@ TEST(LandingSites, AllOfAFlatPlateButItsRim) {
   EXPECT_EQ(sites.columns, 80);
   // 0.7 m at each side is lost to radius and margin; the footprint's cells beyond the grid lie within that.
   const double expected = std::pow((8.0 - 2.0 * 0.9) / 8.0, 2);  // 0.2 m of cells without a footprint, then 0.7 m
-  EXPECT_NEAR(sites.SafeShare(), expected, 0.03);                 // of a cell a side: 0.1 / 8 · 2
+  EXPECT_NEAR(sites.SafeShare(), expected, 0.03);                // of a cell a side: 0.1 / 8 · 2
 }
 
 TEST(LandingSites, SlopeHasALimit) {
@@ -55,7 +55,8 @@ TEST(LandingSites, StepsStonesWiresAndFoliageAreKeptClearOf) {
   pin.objects.push_back({"pin", geometry::Cylinder{0.005, 0.5}, {base::Quat::Identity(), {0.0, 0.0, 0.5}}, 0});
   ExpectHole(pin, 0.0);
   World leaf = Plate(0.0);  // seen, not hit
-  leaf.objects.push_back({"leaf", geometry::Box{{0.3, 0.3, 0.002}}, {base::Quat::Identity(), {0, 0, 0.01}}, 0, 1.0, false});
+  leaf.objects.push_back(
+      {"leaf", geometry::Box{{0.3, 0.3, 0.002}}, {base::Quat::Identity(), {0, 0, 0.01}}, 0, 1.0, false});
   ExpectHole(leaf, 0.2);
 }
 

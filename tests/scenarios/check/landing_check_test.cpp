@@ -33,7 +33,7 @@ TEST(LandingCheck, StandsOnLevelGroundAndOnAGentleSlope) {
 
 TEST(LandingCheck, SlidesOrFallsWhereItMay) {
   EXPECT_FALSE(DropOn(Plate(0.7), {0.0, 0.0}).stood);  // 40°: friction 0.64 holds up to 33°
-  worlds::World post = Plate(0.0);  // legs astride a post that is higher than they are long
+  worlds::World post = Plate(0.0);                     // legs astride a post that is higher than they are long
   post.objects.push_back({"post", geometry::Cylinder{0.02, 0.5}, {base::Quat::Identity(), {0, 0, 0.5}}, 0});
   const Drop drop = DropOn(post, {0.0, 0.0});
   EXPECT_FALSE(drop.stood);
@@ -43,8 +43,10 @@ TEST(LandingCheck, SlidesOrFallsWhereItMay) {
 TEST(LandingCheck, SafeCellsOfARoughWorldStand) {
   worlds::World world = Plate(0.05);
   for (int i = 0; i < 8; ++i) {
-    world.objects.push_back({"stone" + std::to_string(i), geometry::Sphere{0.12},
-                             {base::Quat::Identity(), {-3.0 + 0.8 * i, 0.9 * (i % 3 - 1), 0.0}}, 0});
+    world.objects.push_back({"stone" + std::to_string(i),
+                             geometry::Sphere{0.12},
+                             {base::Quat::Identity(), {-3.0 + 0.8 * i, 0.9 * (i % 3 - 1), 0.0}},
+                             0});
   }
   const LandingReport report = CheckLandingSites(world, Q250(), 40, 1);
   EXPECT_EQ(report.Count(true), 40);
