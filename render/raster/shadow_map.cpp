@@ -167,8 +167,7 @@ const ShadowMap& MoverShadows::Place(const internal::SceneGeometry& scene, const
     texture_from_mover = (scene.shadow.texture_from_world * texture_from_mover).eval();
     const internal::ShadowRegion region = internal::RegionOf(texture_from_mover, mover.low, mover.high);
     if (region.IsEmpty()) continue;
-    VisibilityBuffer buffer;
-    const Target target = buffer.Clear(region.x1 - region.x0 + 1, region.y1 - region.y0 + 1, 0.0F, false);
+    const Target target = buffer_.Clear(region.x1 - region.x0 + 1, region.y1 - region.y0 + 1, 0.0F, false);
     DrawBatch(scene, mover, texture_from_mover, alpha, kernels, {region.x0, region.y0}, target);
     Merge(target, region, map_);
     regions_.push_back(region);

@@ -7,6 +7,7 @@
 #include "render/internal/scene_geometry.h"
 #include "render/raster/kernels.h"
 #include "render/raster/packed_textures.h"
+#include "render/raster/visibility_buffer.h"
 
 namespace alula::render::raster {
 
@@ -33,6 +34,7 @@ class MoverShadows {
  private:
   ShadowMap map_;
   std::vector<internal::ShadowRegion> regions_;
+  VisibilityBuffer buffer_;  // of one mover
 };
 
 }  // namespace alula::render::raster

@@ -14,7 +14,7 @@ namespace {
 using base::Vec3;
 using geometry::Mesh;
 
-constexpr int kCorners = 12;
+constexpr int kCorners = 10;
 
 void AddQuad(Mesh& mesh, const std::array<Vec3, 4>& corners) {
   const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
@@ -76,7 +76,7 @@ geometry::MeshShape Limb(double length, double radius_above, double radius_below
 }
 
 geometry::MeshShape Ellipsoid(const Vec3& radii, double period) {
-  constexpr int kRings = 8;
+  constexpr int kRings = 6;
   std::vector<Ring> rings;
   for (int i = 0; i <= kRings; ++i) {
     const double angle = std::numbers::pi * (static_cast<double>(i) / kRings - 0.5);

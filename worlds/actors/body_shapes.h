@@ -18,7 +18,7 @@ struct Ring {
 
 /// A closed body of elliptic rings from below to above (the first and the last of radius 0), `x` and `y` times the
 /// radius wide; smooth normals; one texture period covers `period` m. Where the profile is convex, so is the body:
-/// Bullet's hull is then what one sees. Twelve corners a ring: some 120 triangles a limb.
+/// Bullet's hull is then what one sees. Ten corners a ring: 80 triangles a limb.
 geometry::MeshShape TurnedBody(const std::vector<Ring>& rings, double x, double y, double period);
 
 /// A limb that hangs from the origin down to −length, round at both ends.

@@ -50,7 +50,7 @@ Transform FootPose(const Proportions& size, const Vec3& ball, double yaw, double
 
 /// Highest pelvis from which the leg reaches its ankle; `hip`: the hip's place, its height apart.
 double HighestPelvis(const Proportions& size, const Vec2& hip, const Vec3& ankle) {
-  const double leg = 0.99 * (size.thigh + size.shin);
+  const double leg = 0.997 * (size.thigh + size.shin);
   const double across = std::min((ankle.head<2>() - hip).norm(), 0.75 * leg);
   return ankle.z() + std::sqrt(leg * leg - across * across);
 }
@@ -193,7 +193,7 @@ void StepGait(GaitState& gait, const Body& body, double height, double dt, const
 
 void WalkCoordinates(const GaitState& gait, const Body& body, double height, double* q) {
   const Proportions size(height);
-  constexpr double kSoft = 0.008;  // m, over which one bound takes over from the other
+  constexpr double kSoft = 0.005;  // m, over which one bound takes over from the other
   // Upright with a little bend in the knees, or lower where a leg does not reach.
   double highest = 1e9;
   std::array<double, 3> bounds{};
@@ -203,7 +203,7 @@ void WalkCoordinates(const GaitState& gait, const Body& body, double height, dou
     bounds[static_cast<std::size_t>(side)] = HighestPelvis(size, HipPlace(body, size, Twist(gait.swing), side), X_WF.p);
     highest = std::min(highest, foot.ball.z());
   }
-  bounds[2] = highest + size.ankle + 0.975 * (size.thigh + size.shin);
+  bounds[2] = highest + size.ankle + 0.998 * (size.thigh + size.shin);
   const double least = std::min({bounds[0], bounds[1], bounds[2]});
   double sum = 0.0;
   for (const double bound : bounds) sum += std::exp(-(bound - least) / kSoft);

@@ -28,7 +28,8 @@ void AddLink(Actor& actor, std::string name, int joint, const Transform& X_JL, i
                          .joint = joint,
                          .X_JL = X_JL,
                          .material = material,
-                         .collides = collides});
+                         .collides = collides,
+                         .casts_shadow = collides});
 }
 
 /// A wheel on its joint: tyre, rim, and two spokes that show it turning.
@@ -76,10 +77,11 @@ void AddCar(World& world, const std::string& name, const Drive& drive, std::uint
   const bool is_van = random.Index(3) == 0;
   const double roof = is_van ? random.Uniform(1.75, 1.95) : random.Uniform(1.38, 1.5);
   constexpr double kSill = 0.20, kBelt = 0.78;  // m
-  AddLink(actor, "lower", 0, At(middle, 0, 0.5 * (kSill + 0.55)), paint,
-          geometry::Box{{half, w, 0.5 * (0.55 - kSill)}});
-  AddLink(actor, "upper", 0, At(middle, 0, 0.5 * (0.55 + kBelt)), paint,
-          Frustum({half, w}, {half - 0.08, w - 0.05}, 0.5 * (kBelt - 0.55), 0.0));
+  constexpr double kArch = 0.48;                // m: below it the body is narrow, so that the wheels show
+  AddLink(actor, "lower", 0, At(middle, 0, 0.5 * (kSill + kArch)), paint,
+          geometry::Box{{half - 0.05, 0.5 * drive.track - 0.02, 0.5 * (kArch - kSill)}});
+  AddLink(actor, "upper", 0, At(middle, 0, 0.5 * (kArch + kBelt)), paint,
+          Frustum({half, w}, {half - 0.08, w - 0.05}, 0.5 * (kBelt - kArch), 0.0));
   const double bonnet = is_van ? 0.55 : 1.05;
   const double boot = is_van ? 0.05 : 0.45;
   const double cabin = half - 0.5 * (bonnet + boot);

@@ -90,14 +90,15 @@ class Tailor {
   }
   void Head() {
     const Vec3 p(0.008 * h_, 0.0, 0.077 * h_);
-    Add("neck", kHead, {}, clothes_.skin, geometry::Cylinder{0.031 * h_, 0.04 * h_});
+    Add("neck", kHead, {}, clothes_.skin, geometry::Cylinder{0.031 * h_, 0.04 * h_}, false);
     Add("head", kHead, {base::Quat::Identity(), p}, clothes_.skin,
         Ellipsoid({0.054 * h_, 0.044 * h_, 0.066 * h_}, 1.0));
     Add("nose", kHead, {base::Quat::Identity(), p + Vec3(0.054 * h_, 0.0, -0.004 * h_)}, clothes_.skin,
-        geometry::Sphere{0.008 * h_});
+        geometry::Sphere{0.008 * h_}, false);
     Add("hair", kHead, {base::FromYawPitchRoll(0.0, -0.35, 0.0), p + Vec3(-0.004 * h_, 0.0, 0.006 * h_)}, clothes_.hair,
-        TurnedBody(Scaled({{-0.005, 0.0}, {0.0, 0.056}, {0.03, 0.052}, {0.052, 0.034}, {0.064, 0.0}}, 1.0), 1.02, 0.86,
-                   1.0));
+        TurnedBody(Scaled({{-0.005, 0.0}, {0.0, 0.058}, {0.03, 0.055}, {0.054, 0.037}, {0.068, 0.0}}, 1.0), 1.04, 0.90,
+                   1.0),
+        false);
   }
   void Arm(const std::string& side, int joint) {
     const Proportions size(h_);
@@ -106,7 +107,7 @@ class Tailor {
     const double wrist = size.forearm - hand;
     Add(side + "_forearm", joint + 1, {}, clothes_.sleeve, Limb(wrist, 0.022 * h_, 0.016 * h_, kWeave));
     Add(side + "_hand", joint + 1, {base::Quat::Identity(), {0.0, 0.0, -wrist - 0.6 * hand}}, clothes_.skin,
-        Ellipsoid({0.020 * h_, 0.013 * h_, 0.9 * hand}, 1.0));
+        Ellipsoid({0.020 * h_, 0.013 * h_, 0.9 * hand}, 1.0), false);
   }
   void Leg(const std::string& side, int joint) {
     const Proportions size(h_);
@@ -125,9 +126,15 @@ class Tailor {
     for (Ring& ring : rings) ring = {ring.z * h_, ring.radius * h_ * girth};
     return rings;
   }
-  void Add(std::string name, int joint, const Transform& X_JL, int material, geometry::Shape shape) {
-    actor_.links.push_back(
-        {.name = std::move(name), .shape = std::move(shape), .joint = joint, .X_JL = X_JL, .material = material});
+  /// What lies within the shadow of its neighbours casts none: each one costs.
+  void Add(std::string name, int joint, const Transform& X_JL, int material, geometry::Shape shape,
+           bool casts_shadow = true) {
+    actor_.links.push_back({.name = std::move(name),
+                            .shape = std::move(shape),
+                            .joint = joint,
+                            .X_JL = X_JL,
+                            .material = material,
+                            .casts_shadow = casts_shadow});
   }
 
   Actor& actor_;
