@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/random.h"
@@ -86,7 +87,8 @@ TEST(Actors, ClearanceIsThatOfTheNearestLink) {
   // The plate (0.1 m half wide) a metre beside the pelvis at its height, away from everything else.
   physics.MovePrescribed(testing::At(pelvis + Vec3(0.0, -1.5, 0.0)));
   physics.MoveActors(actors, t);
-  const Clearance clearance = physics.HullClearance(10.0);
+  const std::array<std::string_view, 1> ground{"ground"};
+  const Clearance clearance = physics.HullClearance(10.0, ground);
   EXPECT_TRUE(clearance.object.starts_with("person/")) << clearance.object;
   EXPECT_LT(clearance.distance, 1.5 - 0.1 - 0.05);
   EXPECT_GT(clearance.distance, 1.5 - 0.1 - 0.45) << "an arm";
