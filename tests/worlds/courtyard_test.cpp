@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <map>
 #include <queue>
 #include <set>
 #include <vector>
@@ -353,6 +354,30 @@ TEST(Courtyard, WrongFogAndLampsAreBadInput) {
       EXPECT_NE(std::string(error.what()).find(key), std::string::npos) << error.what();
     }
   }
+}
+
+/// People and swinging gates change nothing of what else the seed draws.
+TEST(Courtyard, PeopleAndSwingingGatesLeaveTheRestAsItIs) {
+  CourtyardConfig lively = Small();
+  lively.people = 4;
+  lively.swinging_gates = 2;
+  const World still = MakeWorld(Small(), 7);
+  const World moving = MakeWorld(lively, 7);
+  EXPECT_TRUE(still.actors.empty());
+  EXPECT_EQ(moving.actors.size(), 6U);
+  ASSERT_EQ(moving.gates.size(), 5U);
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(moving.gates[i].X_WG.p, still.gates[i].X_WG.p);
+  std::map<std::string, base::Vec3> places;
+  for (const Object& object : moving.objects) places[object.name] = object.X_WO.p;
+  for (const Object& object : still.objects) {
+    if (object.name.starts_with("gate")) continue;
+    ASSERT_TRUE(places.contains(object.name)) << object.name;
+    EXPECT_EQ(places[object.name], object.X_WO.p) << object.name;
+  }
+  EXPECT_EQ(moving.wind.mean_W, still.wind.mean_W);
+  lively.people = 20;
+  lively.trees = 12;
+  EXPECT_EQ(MakeWorld(lively, 7).actors.size(), 22U) << "a full courtyard still has room for them";
 }
 
 }  // namespace

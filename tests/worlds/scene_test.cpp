@@ -161,5 +161,34 @@ TEST_F(SceneTest, WhatIsWrongHasItsPlace) {
   EXPECT_NE(ErrorOf("pad_position: [500 m, 0 m, 0 m]\n").find("outside the world's bounds"), std::string::npos);
 }
 
+TEST_F(SceneTest, ListsWhatMoves) {
+  const World world = MakeWorld(Read(R"(texture_size: 32
+actors:
+  - {type: person, waypoints: [[3 m, 0 m, 0 m], [3 m, 4 m, 0 m]], speed: 1.1 m/s, height: 1.6 m}
+  - {type: car, waypoints: [[-20 m, 9 m, 0 m], [20 m, 9 m, 0 m]]}
+  - {type: drone, waypoints: [[0 m, -5 m, 3 m]]}
+  - {type: people, count: 2, low: [5 m, -8 m, 0 m], high: [15 m, 8 m, 0 m]}
+  - {type: grass, tufts: 12}
+gates:
+  - {position: [4 m, -4 m, 1.5 m], swing: {amplitude: 20 deg, period: 3 s}}
+)"),
+                                1);
+  std::vector<std::string> names;
+  for (const Actor& actor : world.actors) names.push_back(actor.name);
+  EXPECT_EQ(names,
+            (std::vector<std::string>{"gate0/frame", "person0", "car1", "drone2", "people3_0", "people3_1", "grass4"}));
+  EXPECT_EQ(world.gates[0].actor, 0);
+  EXPECT_EQ(std::get<Walk>(world.actors[1].motion).height, 1.6);
+}
+
+TEST_F(SceneTest, ActorsThatDoNotFitAreOneClearLine) {
+  EXPECT_NE(ErrorOf("actors: [{type: car, waypoints: [[0 m, 0 m, 0 m], [5 m, 0 m, 0 m], [5 m, 5 m, 0 m]]}]")
+                .find("actors.0.turn_radius: does not fit: its way: two waypoints lie too close together"),
+            std::string::npos);
+  EXPECT_NE(ErrorOf("actors: [{type: people, count: 50, low: [3 m, 0 m, 0 m], high: [4 m, 1 m, 0 m]}]")
+                .find("people0_: no free room for 50 people"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace alula::worlds

@@ -78,7 +78,9 @@ void AddCrowd(World& world, const std::string& name, const CrowdConfig& config, 
   std::vector<Vec2> starts;
   for (int i = 0; i < config.count; ++i) {
     const std::string own = name + std::to_string(i);
-    const std::vector<Vec2> route = DrawRoute(walkable, config, starts, random);
+    constexpr int kStarts = 20;  // a place may be free and lead nowhere
+    std::vector<Vec2> route;
+    for (int k = 0; k < kStarts && route.size() < 2; ++k) route = DrawRoute(walkable, config, starts, random);
     if (route.size() < 2) {
       throw base::InputError(name + ": no free room for " + std::to_string(config.count) + " people (" +
                              std::to_string(i) + " found a way); ask for fewer");
