@@ -245,7 +245,7 @@ void MeasureCatalogWorld(const scenarios::CatalogEntry& entry, Figures& figures)
 
 void Run_render(Figures& figures) {
   for (const auto& [name, world] : {std::pair{"yard", Yard()},
-                                    {"courtyard", worlds::MakeWorld({}, 1)},
+                                    {"courtyard", worlds::MakeWorld(worlds::CourtyardConfig{}, 1)},
                                     {"synthetic_hall", SyntheticHall(1)},
                                     {"synthetic_forest", SyntheticForest(1)}}) {
     figures.Add(std::string("render/") + name + "/world/triangles_1", TrianglesOf(world));

@@ -47,9 +47,13 @@ class TopMap {
     const Vec2 first = (low - sites_.low) / sites_.cell;
     const Vec2 last = (high - sites_.low) / sites_.cell;
     if (last.minCoeff() < 0.0 || first.x() >= sites_.columns || first.y() >= sites_.rows) return;
-    AddEdge(a, b, collides);
-    AddEdge(b, c, collides);
-    AddEdge(c, a, collides);
+    // Where the face can be stood on, a point of an edge says how high the face is in the cell's middle.
+    const Vec3 normal = (b - a).cross(c - a);
+    const bool gentle = std::abs(normal.z()) > 0.9 * normal.norm();
+    const Vec2 slope = gentle ? Vec2(-normal.head<2>() / normal.z()) : Vec2(Vec2::Zero());
+    AddEdge(a, b, slope, collides);
+    AddEdge(b, c, slope, collides);
+    AddEdge(c, a, slope, collides);
     const Vec2 ab = (b - a).head<2>();
     const Vec2 ac = (c - a).head<2>();
     const double area = ab.x() * ac.y() - ab.y() * ac.x();
@@ -67,7 +71,7 @@ class TopMap {
     }
   }
 
-  void AddEdge(const Vec3& a, const Vec3& b, bool collides) {
+  void AddEdge(const Vec3& a, const Vec3& b, const Vec2& slope, bool collides) {
     const int steps = 1 + static_cast<int>((b - a).head<2>().norm() / (0.5 * sites_.cell));
     for (int n = 0; n <= steps; ++n) {
       const Vec3 p = a + (b - a) * (static_cast<double>(n) / steps);
@@ -75,7 +79,7 @@ class TopMap {
       if (at.minCoeff() < 0.0 || at.x() >= sites_.columns || at.y() >= sites_.rows) continue;
       const int i = static_cast<int>(at.x());
       const int j = static_cast<int>(at.y());
-      Raise(sites_.Index(i, j), p.z(), collides);
+      Raise(sites_.Index(i, j), p.z() + slope.dot(sites_.Middle(i, j) - p.head<2>()), collides);
     }
   }
 

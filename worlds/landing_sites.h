@@ -42,8 +42,8 @@ struct LandingSites {
 };
 
 /// Over the world's bounds; surfaces above their top do not count. Tops are kept by cell from the triangles' corners,
-/// from points along their edges half a cell apart, and from the cells' middles that lie within them, so that neither
-/// a wire nor the rim of a wall slips between cells.
+/// from points along their edges half a cell apart (carried to the cell's middle along a gentle face), and from the
+/// cells' middles that lie within them, so that neither a wire nor the rim of a wall slips between cells.
 LandingSites FindLandingSites(const World& world, const LandingConfig& config = {});
 
 }  // namespace alula::worlds

@@ -124,7 +124,7 @@ TEST_P(WorldAgreement, RaysMeetWhatIsSeen) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Catalog, WorldAgreement, testing::ValuesIn(WorldNames()),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& world) { return world.param; });
 
 }  // namespace
 }  // namespace alula::scenarios

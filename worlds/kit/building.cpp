@@ -41,7 +41,8 @@ struct Glazing {
     const double z = 0.5 * (height - kBar);
     const auto corner = [&](double side, double up) { return X * Vec3(side * x, 0.02, up * z); };
     AddQuad(*panes, {corner(1, -1), corner(-1, -1), corner(-1, 1), corner(1, 1)}, 1.0);
-    AddBoxPart(*stone, {width + 0.25, 0.26, 0.07}, X * Transform{Quat::Identity(), {0.0, 0.02, -0.5 * height - 0.08}}, 1.0);
+    AddBoxPart(*stone, {width + 0.25, 0.26, 0.07}, X * Transform{Quat::Identity(), {0.0, 0.02, -0.5 * height - 0.08}},
+               1.0);
   }
 
   void AddTo(World& world, const BuildingLooks& looks, const std::string& name, const Transform& X) && {
@@ -68,21 +69,27 @@ Transform OnFace(int axis, double side, const Vec2& half, double along, double z
 BuildingLooks AddBuildingLooks(World& world, Pattern wall, const Palette& colours, const std::string& name,
                                std::uint64_t seed) {
   BuildingLooks looks;
-  looks.wall = AddSurface(world, name + "/wall",
-                          {.pattern = wall, .palette = colours, .period = 3.0, .size = 512, .variants = 2, .contrast = 0.13},
-                          seed);
+  looks.wall = AddSurface(
+      world, name + "/wall",
+      {.pattern = wall, .palette = colours, .period = 3.0, .size = 512, .variants = 2, .contrast = 0.13}, seed);
   looks.roof = AddMaterial(world, name + "/roof",
-                           {.pattern = Pattern::kBrick, .palette = {{0.26F, 0.13F, 0.10F}, {0.62F, 0.38F, 0.30F}}, .size = 512,
+                           {.pattern = Pattern::kBrick,
+                            .palette = {{0.26F, 0.13F, 0.10F}, {0.62F, 0.38F, 0.30F}},
+                            .size = 512,
                             .contrast = 0.16},
                            seed);
   looks.frame = AddPlainMaterial(world, name + "/frame", {0.82F, 0.81F, 0.77F});
   looks.glass = AddPlainMaterial(world, name + "/glass", {0.17F, 0.21F, 0.25F});
   looks.door = AddMaterial(world, name + "/door",
-                           {.pattern = Pattern::kWood, .palette = {{0.14F, 0.09F, 0.05F}, {0.45F, 0.30F, 0.18F}}, .size = 128,
+                           {.pattern = Pattern::kWood,
+                            .palette = {{0.14F, 0.09F, 0.05F}, {0.45F, 0.30F, 0.18F}},
+                            .size = 128,
                             .contrast = 0.2},
                            seed);
   looks.stone = AddMaterial(world, name + "/stone",
-                            {.pattern = Pattern::kPlaster, .palette = {{0.35F, 0.34F, 0.32F}, {0.72F, 0.70F, 0.66F}}, .size = 128,
+                            {.pattern = Pattern::kPlaster,
+                             .palette = {{0.35F, 0.34F, 0.32F}, {0.72F, 0.70F, 0.66F}},
+                             .size = 128,
                              .contrast = 0.13},
                             seed);
   return looks;
@@ -92,7 +99,8 @@ void AddHouse(World& world, const BuildingLooks& looks, const std::string& name,
               const HouseConfig& config, base::RandomStream& random) {
   const Vec3& size = config.size;
   AddTiledBox(world, name + "/walls", {size.x(), size.y(), size.z() + kFooting},
-              X_WH * Transform{Quat::Identity(), {0, 0, 0.5 * (size.z() - kFooting)}}, looks.wall, SemanticClass::kWall, random);
+              X_WH * Transform{Quat::Identity(), {0, 0, 0.5 * (size.z() - kFooting)}}, looks.wall, SemanticClass::kWall,
+              random);
   // Gables under the roof, and the roof's two slopes, each a slab with eaves.
   auto gables = std::make_shared<Mesh>();
   const double half = 0.5 * size.y();
@@ -107,8 +115,8 @@ void AddHouse(World& world, const BuildingLooks& looks, const std::string& name,
     const Vec3 ridge(0.0, 0.0, size.z() + config.roof + 0.05);
     const Vec3 down = q * Vec3(0.0, side, 0.0);
     AddObject(world, name + (side < 0 ? "/roof_south" : "/roof_north"),
-              geometry::Box{{0.5 * size.x() + 0.35, 0.5 * slope, 0.06}}, X_WH * Transform{q, ridge + 0.5 * slope * down},
-              looks.roof, 3.0, SemanticClass::kWall);
+              geometry::Box{{0.5 * size.x() + 0.35, 0.5 * slope, 0.06}},
+              X_WH * Transform{q, ridge + 0.5 * slope * down}, looks.roof, 3.0, SemanticClass::kWall);
   }
   AddObject(world, name + "/chimney", geometry::Box{{0.35, 0.28, 0.9}},
             X_WH * Transform{Quat::Identity(), {0.27 * size.x(), 0.22 * size.y(), size.z() + config.roof + 0.05}},
@@ -130,10 +138,10 @@ void AddHouse(World& world, const BuildingLooks& looks, const std::string& name,
   std::move(glazing).AddTo(world, looks, name, X_WH);
   const double door = size.x() * ((along / 2 + 0.5) / along - 0.5);
   const Transform X_HD = OnFace(1, -1.0, extent, -door, 0.0);
-  AddObject(world, name + "/door", geometry::Box{{0.5, 0.06, 1.05}}, X_WH * X_HD * Transform{Quat::Identity(), {0, 0, 1.05}},
-            looks.door, 1.2);
-  AddObject(world, name + "/doorstep", geometry::Box{{0.8, 0.45, 0.4}}, X_WH * X_HD * Transform{Quat::Identity(), {0, 0.4, -0.3}},
-            looks.stone, 1.2);
+  AddObject(world, name + "/door", geometry::Box{{0.5, 0.06, 1.05}},
+            X_WH * X_HD * Transform{Quat::Identity(), {0, 0, 1.05}}, looks.door, 1.2);
+  AddObject(world, name + "/doorstep", geometry::Box{{0.8, 0.45, 0.4}},
+            X_WH * X_HD * Transform{Quat::Identity(), {0, 0.4, -0.3}}, looks.stone, 1.2);
 }
 
 void AddBlock(World& world, const BuildingLooks& looks, const std::string& name, const Transform& X_WB,
@@ -141,17 +149,21 @@ void AddBlock(World& world, const BuildingLooks& looks, const std::string& name,
   const double height = config.storeys * config.storey + 0.4;
   const Vec2 half(0.5 * config.length, 0.5 * config.width);
   AddTiledBox(world, name + "/walls", {config.length, config.width, height + kFooting},
-              X_WB * Transform{Quat::Identity(), {0, 0, 0.5 * (height - kFooting)}}, looks.wall, SemanticClass::kWall, random);
+              X_WB * Transform{Quat::Identity(), {0, 0, 0.5 * (height - kFooting)}}, looks.wall, SemanticClass::kWall,
+              random);
   auto stone = std::make_shared<Mesh>();
   const auto band = [&](double z, double h, double out) {  // around the house: four beams
     for (const double side : {-1.0, 1.0}) {
-      AddBoxPart(*stone, {config.length + 2.0 * out, 0.3, h}, {Quat::Identity(), {0, side * (half.y() + out - 0.15), z}}, 1.5);
-      AddBoxPart(*stone, {0.3, config.width + 2.0 * out - 0.6, h}, {Quat::Identity(), {side * (half.x() + out - 0.15), 0, z}}, 1.5);
+      AddBoxPart(*stone, {config.length + 2.0 * out, 0.3, h},
+                 {Quat::Identity(), {0, side * (half.y() + out - 0.15), z}}, 1.5);
+      AddBoxPart(*stone, {0.3, config.width + 2.0 * out - 0.6, h},
+                 {Quat::Identity(), {side * (half.x() + out - 0.15), 0, z}}, 1.5);
     }
   };
   band(height + 0.3, 0.7, 0.08);
   band(0.25, 0.5, 0.06);
-  AddObject(world, name + "/bands", geometry::MeshShape{std::move(stone)}, X_WB, looks.stone, 1.0, SemanticClass::kWall);
+  AddObject(world, name + "/bands", geometry::MeshShape{std::move(stone)}, X_WB, looks.stone, 1.0,
+            SemanticClass::kWall);
   Glazing glazing;
   for (int storey = 0; storey < config.storeys; ++storey) {
     const double z = 0.5 + (storey + 0.5) * config.storey;
@@ -170,8 +182,8 @@ void AddBlock(World& world, const BuildingLooks& looks, const std::string& name,
   std::move(glazing).AddTo(world, looks, name, X_WB);
   const int count = std::max(2, static_cast<int>(config.length / 2.7));
   const Transform X_BD = OnFace(1, -1.0, half, config.length * ((count / 2 + 0.5) / count - 0.5), 0.0);
-  AddObject(world, name + "/door", geometry::Box{{0.8, 0.08, 1.2}}, X_WB * X_BD * Transform{Quat::Identity(), {0, 0, 1.2}},
-            looks.door, 1.2);
+  AddObject(world, name + "/door", geometry::Box{{0.8, 0.08, 1.2}},
+            X_WB * X_BD * Transform{Quat::Identity(), {0, 0, 1.2}}, looks.door, 1.2);
 }
 
 }  // namespace alula::worlds

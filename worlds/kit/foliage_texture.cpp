@@ -32,29 +32,40 @@ class Painter {
   /// A pointed leaf of two arcs; its sides differ a little, as they face the light differently.
   void Leaf(const Vec2& middle, const Vec2& along, double half_length, double half_width, const Palette& palette,
             double tone) {
-    Cover(middle, half_length, [&](const Vec2& d) {
-      const double s = d.dot(along) / half_length;
-      const double side = (d.y() * along.x() - d.x() * along.y()) / half_width;
-      const double inside = ((1.0 - s * s) - std::abs(side)) * half_width;
-      return Texel{inside, std::abs(side) < 0.08 ? 1.15 * tone : side > 0.0 ? tone : 0.82 * tone};
-    }, palette);
+    Cover(
+        middle, half_length,
+        [&](const Vec2& d) {
+          const double s = d.dot(along) / half_length;
+          const double side = (d.y() * along.x() - d.x() * along.y()) / half_width;
+          const double inside = ((1.0 - s * s) - std::abs(side)) * half_width;
+          return Texel{inside, std::abs(side) < 0.08 ? 1.15 * tone : side > 0.0 ? tone : 0.82 * tone};
+        },
+        palette);
   }
 
   /// A stroke from a to b, `width` wide at a and a third of it at b.
   void Stroke(const Vec2& a, const Vec2& b, double width, const Palette& palette, double tone) {
     const Vec2 along = b - a;
     const double length = along.norm();
-    Cover(0.5 * (a + b), 0.5 * length + width, [&](const Vec2& d) {
-      const Vec2 p = d + 0.5 * along;
-      const double s = std::clamp(p.dot(along) / (length * length), 0.0, 1.0);
-      const double off = (p - s * along).norm();
-      const double half = 0.5 * width * (1.0 - 0.67 * s);
-      return Texel{half - off, tone * (1.0 + 0.25 * (p.x() * along.y() - p.y() * along.x()) / (length * width))};
-    }, palette);
+    Cover(
+        0.5 * (a + b), 0.5 * length + width,
+        [&](const Vec2& d) {
+          const Vec2 p = d + 0.5 * along;
+          const double s = std::clamp(p.dot(along) / (length * length), 0.0, 1.0);
+          const double off = (p - s * along).norm();
+          const double half = 0.5 * width * (1.0 - 0.67 * s);
+          return Texel{half - off, tone * (1.0 + 0.25 * (p.x() * along.y() - p.y() * along.x()) / (length * width))};
+        },
+        palette);
   }
 
   void Disc(const Vec2& middle, double radius, const Palette& palette, double tone) {
-    Cover(middle, radius, [&](const Vec2& d) { return Texel{radius - d.norm(), tone}; }, palette);
+    Cover(
+        middle, radius,
+        [&](const Vec2& d) {
+          return Texel{radius - d.norm(), tone};
+        },
+        palette);
   }
 
  private:
@@ -92,7 +103,8 @@ class Painter {
 void PaintSpray(Painter& painter, const FoliageConfig& c, RandomStream& random) {
   constexpr double kReach = 0.45;
   for (int i = 0; i < 7; ++i) {
-    const Vec2 tip = Vec2(0.5, 0.5) + kReach * random.Uniform(0.6, 0.9) * Direction(2.0 * kPi * (i + random.Uniform()) / 7.0);
+    const Vec2 tip =
+        Vec2(0.5, 0.5) + kReach * random.Uniform(0.6, 0.9) * Direction(2.0 * kPi * (i + random.Uniform()) / 7.0);
     painter.Stroke({0.5, 0.5}, tip, 0.018, c.wood, random.Uniform(0.2, 0.6));
   }
   constexpr int kLeaves = 480;
@@ -101,9 +113,10 @@ void PaintSpray(Painter& painter, const FoliageConfig& c, RandomStream& random) 
     const double around = 2.0 * kPi * random.Uniform();
     const double edge = kReach * (0.78 + 0.12 * std::sin(3.0 * around) + 0.10 * std::sin(5.0 * around + 1.0));
     const double half = random.Uniform(0.020, 0.034);
-    const Vec2 middle = Vec2(0.5, 0.5) + std::max(0.0, edge - half) * std::sqrt(random.Uniform(0.02, 1.0)) * Direction(around);
-    painter.Leaf(middle, Direction(around + random.Uniform(-1.3, 1.3)), half, half * random.Uniform(0.38, 0.55), c.leaves,
-                 std::clamp(0.15 + 0.55 * depth + 0.18 * random.Gaussian(), 0.0, 1.1));
+    const Vec2 middle =
+        Vec2(0.5, 0.5) + std::max(0.0, edge - half) * std::sqrt(random.Uniform(0.02, 1.0)) * Direction(around);
+    painter.Leaf(middle, Direction(around + random.Uniform(-1.3, 1.3)), half, half * random.Uniform(0.38, 0.55),
+                 c.leaves, std::clamp(0.15 + 0.55 * depth + 0.18 * random.Gaussian(), 0.0, 1.1));
   }
 }
 
@@ -159,7 +172,8 @@ void PaintFlowers(Painter& painter, const FoliageConfig& c, RandomStream& random
     const double tone = random.Uniform(0.3, 1.0);
     for (int k = 0; k < 6; ++k) {
       const double turn = 2.0 * kPi * k / 6.0 + random.Uniform(-0.2, 0.2);
-      painter.Leaf(top + 0.028 * Direction(turn), Direction(turn), 0.03, 0.018, c.blossom, tone + 0.1 * random.Gaussian());
+      painter.Leaf(top + 0.028 * Direction(turn), Direction(turn), 0.03, 0.018, c.blossom,
+                   tone + 0.1 * random.Gaussian());
     }
     painter.Disc(top, 0.012, {{0.5F, 0.38F, 0.05F}, {0.9F, 0.75F, 0.2F}}, 0.6);
   }
@@ -168,7 +182,8 @@ void PaintFlowers(Painter& painter, const FoliageConfig& c, RandomStream& random
 void PaintTree(Painter& painter, const FoliageConfig& c, RandomStream& random) {
   painter.Stroke({0.5, 0.0}, {0.5, 0.5}, 0.06, c.wood, 0.35);
   for (int i = 0; i < 6; ++i) {
-    painter.Stroke({0.5, random.Uniform(0.2, 0.4)}, {random.Uniform(0.25, 0.75), random.Uniform(0.5, 0.8)}, 0.025, c.wood, 0.3);
+    painter.Stroke({0.5, random.Uniform(0.2, 0.4)}, {random.Uniform(0.25, 0.75), random.Uniform(0.5, 0.8)}, 0.025,
+                   c.wood, 0.3);
   }
   for (int i = 0; i < 900; ++i) {
     const double depth = i / 900.0;
@@ -177,8 +192,8 @@ void PaintTree(Painter& painter, const FoliageConfig& c, RandomStream& random) {
     const double r = edge * std::sqrt(random.Uniform());
     const Vec2 at(0.5 + 0.44 * r * std::cos(around), 0.60 + 0.37 * r * std::sin(around));
     const double light = 0.45 + 0.45 * (at.y() - 0.6) / 0.37;  // the sky lights the top
-    painter.Leaf(at, Direction(random.Uniform(0.0, kPi)), random.Uniform(0.012, 0.028), random.Uniform(0.008, 0.018), c.leaves,
-                 std::clamp(light * (0.35 + 0.75 * depth) + 0.16 * random.Gaussian(), 0.0, 1.1));
+    painter.Leaf(at, Direction(random.Uniform(0.0, kPi)), random.Uniform(0.012, 0.028), random.Uniform(0.008, 0.018),
+                 c.leaves, std::clamp(light * (0.35 + 0.75 * depth) + 0.16 * random.Gaussian(), 0.0, 1.1));
   }
 }
 
@@ -192,8 +207,9 @@ void PaintFir(Painter& painter, const FoliageConfig& c, RandomStream& random) {
       const double x = reach * random.Uniform(-1.0, 1.0) * random.Uniform(0.7, 1.1);
       const Vec2 root(0.5 + 0.4 * x, up + 0.02);
       const Vec2 tip(std::clamp(0.5 + x, 0.02, 0.98), up - 0.35 * std::abs(x) * random.Uniform(0.3, 1.0));
-      painter.Stroke(root, tip, 0.016, c.leaves,
-                     std::clamp(0.2 + 0.3 * up + 0.6 * std::abs(x) / (reach + 0.01) * 0.5 + 0.18 * random.Gaussian(), 0.0, 1.1));
+      painter.Stroke(
+          root, tip, 0.016, c.leaves,
+          std::clamp(0.2 + 0.3 * up + 0.6 * std::abs(x) / (reach + 0.01) * 0.5 + 0.18 * random.Gaussian(), 0.0, 1.1));
     }
   }
 }
@@ -207,12 +223,24 @@ std::shared_ptr<const geometry::Texture> MakeFoliageTexture(const FoliageConfig&
   RandomStream random(seed, "world/foliage/" + std::string(name));
   Painter painter(*texture, config.leaves);
   switch (config.kind) {
-    case Foliage::kSpray: PaintSpray(painter, config, random); break;
-    case Foliage::kNeedles: PaintNeedles(painter, config, random); break;
-    case Foliage::kTuft: PaintTuft(painter, config, random); break;
-    case Foliage::kFlowers: PaintFlowers(painter, config, random); break;
-    case Foliage::kTree: PaintTree(painter, config, random); break;
-    case Foliage::kFir: PaintFir(painter, config, random); break;
+    case Foliage::kSpray:
+      PaintSpray(painter, config, random);
+      break;
+    case Foliage::kNeedles:
+      PaintNeedles(painter, config, random);
+      break;
+    case Foliage::kTuft:
+      PaintTuft(painter, config, random);
+      break;
+    case Foliage::kFlowers:
+      PaintFlowers(painter, config, random);
+      break;
+    case Foliage::kTree:
+      PaintTree(painter, config, random);
+      break;
+    case Foliage::kFir:
+      PaintFir(painter, config, random);
+      break;
   }
   return texture;
 }

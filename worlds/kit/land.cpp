@@ -53,7 +53,8 @@ double SmoothHeightAt(const HeightField& field, const Vec2& p) {
   const auto wy = CubicWeights(q.y() - j);
   double z = 0.0;
   for (int b = 0; b < 4; ++b) {
-    for (int a = 0; a < 4; ++a) z += wx[static_cast<std::size_t>(a)] * wy[static_cast<std::size_t>(b)] * field.At(i + a - 1, j + b - 1);
+    for (int a = 0; a < 4; ++a)
+      z += wx[static_cast<std::size_t>(a)] * wy[static_cast<std::size_t>(b)] * field.At(i + a - 1, j + b - 1);
   }
   return z;
 }
@@ -86,11 +87,10 @@ class LandMesh {
       }
     }
     for (const auto& [block, mesh] : blocks_) {
-      world.objects.push_back({"land/" + std::to_string(block[0]) + "_" + std::to_string(block[1]) + "_" +
-                                   std::to_string(block[2]),
-                               geometry::MeshShape{mesh}, base::Transform{},
-                               surface_.variants[static_cast<std::size_t>(block[2])], 1.0, true,
-                               SemanticClass::kGround});
+      world.objects.push_back(
+          {"land/" + std::to_string(block[0]) + "_" + std::to_string(block[1]) + "_" + std::to_string(block[2]),
+           geometry::MeshShape{mesh}, base::Transform{}, surface_.variants[static_cast<std::size_t>(block[2])], 1.0,
+           true, SemanticClass::kGround});
     }
   }
 
@@ -164,7 +164,8 @@ class Woods {
   explicit Woods(RandomStream& random) {
     for (auto& wave : waves_) {
       const double angle = random.Uniform(0.0, 2.0 * kPi);
-      wave = {2.0 * kPi / random.Uniform(35.0, 90.0) * Vec2(std::cos(angle), std::sin(angle)), random.Uniform(0.0, 2.0 * kPi)};
+      wave = {2.0 * kPi / random.Uniform(35.0, 90.0) * Vec2(std::cos(angle), std::sin(angle)),
+              random.Uniform(0.0, 2.0 * kPi)};
     }
   }
   /// In [0, 1], even about.

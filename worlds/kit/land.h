@@ -43,11 +43,11 @@ void AddLand(World& world, const Land& land, const Surface& field, const Surface
 
 /// Trees far away, as crossed cards merged by the direction in which they stand: "treeline/…".
 struct TreeLineConfig {
-  double nearest = 30.0;      // m beyond the field's border
-  double woods = 0.5;         // share of the land under trees
-  double spacing = 7.0;       // m between trees of a wood
-  double height_min = 7.0;    // m
-  double height_max = 13.0;   // m
+  double nearest = 30.0;     // m beyond the field's border
+  double woods = 0.5;        // share of the land under trees
+  double spacing = 7.0;      // m between trees of a wood
+  double height_min = 7.0;   // m
+  double height_max = 13.0;  // m
   double conifer_share = 0.3;
 };
 void AddTreeLine(World& world, const Land& land, const TreeLineConfig& config, std::uint64_t seed);

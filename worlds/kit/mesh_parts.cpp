@@ -152,9 +152,7 @@ void AddPrism(Mesh& mesh, std::span<const Vec2> outline, double length, const ba
               double texture_scale) {
   const double half = 0.5 * length;
   const std::size_t count = outline.size();
-  const auto at = [&](std::size_t i, double y) {
-    return X * Vec3(outline[i % count].x(), y, outline[i % count].y());
-  };
+  const auto at = [&](std::size_t i, double y) { return X * Vec3(outline[i % count].x(), y, outline[i % count].y()); };
   for (std::size_t i = 0; i < count; ++i) {
     AddQuad(mesh, {at(i, -half), at(i, half), at(i + 1, half), at(i + 1, -half)}, texture_scale);
   }
@@ -188,8 +186,8 @@ void AddRingSector(Mesh& mesh, const RingSector& s, const base::Transform& X, do
   const base::Transform X_back = X.Inverse();
   const auto plan = [&](const Vec3& p) { return Vec2((X_back * p).head<2>()); };
   for (int i = 0; i < steps; ++i) {
-    const auto top = std::array<Vec3, 4>{at(s.r0, i, s.z1), at(s.r1, i, s.z1), at(s.r1, i + 1, s.z1),
-                                         at(s.r0, i + 1, s.z1)};
+    const auto top =
+        std::array<Vec3, 4>{at(s.r0, i, s.z1), at(s.r1, i, s.z1), at(s.r1, i + 1, s.z1), at(s.r0, i + 1, s.z1)};
     face(top, {plan(top[0]), plan(top[1]), plan(top[2]), plan(top[3])});
     const double arc = turn / steps;
     const auto wall = [&](double r, int from, int to) {
@@ -245,8 +243,8 @@ std::shared_ptr<const Mesh> MakeBoulder(const Vec3& size, double rough, double t
   };
   for (int row = 0; row < kRows; ++row) {
     for (int column = 0; column < kColumns; ++column) {  // flat faces: stone has edges
-      const std::array<std::array<int, 2>, 4> c{{{row, column}, {row, column + 1}, {row + 1, column + 1},
-                                                 {row + 1, column}}};
+      const std::array<std::array<int, 2>, 4> c{
+          {{row, column}, {row, column + 1}, {row + 1, column + 1}, {row + 1, column}}};
       for (const auto& t : {std::array<std::size_t, 3>{0, 1, 2}, {0, 2, 3}}) {
         const auto corner = [&](std::size_t k) { return place(c[t[k]][0], c[t[k]][1]); };
         const Vec3 n = (corner(1) - corner(0)).cross(corner(2) - corner(0));

@@ -26,7 +26,8 @@ constexpr double kSides[3] = {1.0, -1.0, 1.0};
 double HalfAt(const PylonConfig& c, double z) {
   const double waist = kWaist * c.height;
   const double body = 0.45;  // m, half side of the body
-  return z < waist ? 0.5 * c.base + (body - 0.5 * c.base) * z / waist : body * (1.0 - 0.75 * (z - waist) / (c.height - waist));
+  return z < waist ? 0.5 * c.base + (body - 0.5 * c.base) * z / waist
+                   : body * (1.0 - 0.75 * (z - waist) / (c.height - waist));
 }
 
 Vec3 Corner(const PylonConfig& c, int k, double z) {

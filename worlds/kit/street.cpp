@@ -32,7 +32,8 @@ void AddMesh(World& world, const std::string& name, std::shared_ptr<Mesh> mesh, 
 void AddLimb(World& world, int material, const std::string& name, const Transform& X, const Vec3& a, const Vec3& b,
              double radius) {
   const Quat q = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(b - a));
-  AddObject(world, name, geometry::Capsule{radius, 0.5 * (b - a).norm()}, X * Transform{q, 0.5 * (a + b)}, material, 1.2);
+  AddObject(world, name, geometry::Capsule{radius, 0.5 * (b - a).norm()}, X * Transform{q, 0.5 * (a + b)}, material,
+            1.2);
 }
 
 }  // namespace
@@ -49,7 +50,8 @@ void AddStreetLamp(World& world, int metal, const std::string& name, const Trans
                                        {{config.arm, 0.0, h + 0.30}, 0.03}}};
   AddTube(*arm, line, 6, 0.6);
   AddMesh(world, name + "/arm", std::move(arm), X_WL, metal);
-  AddObject(world, name + "/head", geometry::Box{{0.28, 0.11, 0.05}}, X_WL * At(config.arm + 0.15, 0, h + 0.28), metal, 0.6);
+  AddObject(world, name + "/head", geometry::Box{{0.28, 0.11, 0.05}}, X_WL * At(config.arm + 0.15, 0, h + 0.28), metal,
+            0.6);
   if (!lit) return;
   Lamp lamp;
   lamp.position = X_WL * Vec3(config.arm + 0.15, 0.0, h + 0.2);
@@ -73,8 +75,14 @@ CarLooks AddCarLooks(World& world, const std::string& name, const Eigen::Vector3
 
 void AddCar(World& world, const CarLooks& looks, const std::string& name, const Transform& X_WC) {
   constexpr double kWidth = 1.75;
-  const std::array<Vec2, 8> lower{{{-2.10, 0.28}, {2.05, 0.26}, {2.15, 0.45}, {2.10, 0.68}, {1.05, 0.88}, {-1.95, 0.92},
-                                   {-2.15, 0.80}, {-2.17, 0.45}}};
+  const std::array<Vec2, 8> lower{{{-2.10, 0.28},
+                                   {2.05, 0.26},
+                                   {2.15, 0.45},
+                                   {2.10, 0.68},
+                                   {1.05, 0.88},
+                                   {-1.95, 0.92},
+                                   {-2.15, 0.80},
+                                   {-2.17, 0.45}}};
   auto body = std::make_shared<Mesh>();
   AddPrism(*body, lower, kWidth, Transform{}, 2.0);
   AddMesh(world, name + "/body", std::move(body), X_WC, looks.paint);
@@ -104,7 +112,8 @@ void AddCar(World& world, const CarLooks& looks, const std::string& name, const 
 void AddFence(World& world, int wood, const std::string& name, const std::vector<Vec3>& line, double height) {
   auto mesh = std::make_shared<Mesh>();
   for (std::size_t i = 0; i < line.size(); ++i) {
-    AddBoxPart(*mesh, {0.10, 0.10, height + 0.5}, {Quat::Identity(), line[i] + Vec3(0, 0, 0.5 * (height - 0.5) + 0.06)}, 0.8);
+    AddBoxPart(*mesh, {0.10, 0.10, height + 0.5}, {Quat::Identity(), line[i] + Vec3(0, 0, 0.5 * (height - 0.5) + 0.06)},
+               0.8);
     if (i + 1 == line.size()) break;
     for (const double share : {0.45, 0.9}) {
       const Vec3 up(0, 0, share * height);
@@ -126,8 +135,10 @@ void AddCarvedWall(World& world, int stone, int carving, const std::string& name
                    double height, base::RandomStream& random) {
   const double half = 0.5 * length;
   AddObject(world, name + "/plinth", geometry::Box{{half + 0.15, 0.38, 0.25}}, X_WV * At(0, 0, 0.05), stone, 1.5);
-  AddObject(world, name + "/wall", geometry::Box{{half, 0.22, 0.5 * height}}, X_WV * At(0, 0, 0.5 * height), carving, 1.5);
-  AddObject(world, name + "/coping", geometry::Box{{half + 0.1, 0.32, 0.08}}, X_WV * At(0, 0, height + 0.08), stone, 1.5);
+  AddObject(world, name + "/wall", geometry::Box{{half, 0.22, 0.5 * height}}, X_WV * At(0, 0, 0.5 * height), carving,
+            1.5);
+  AddObject(world, name + "/coping", geometry::Box{{half + 0.1, 0.32, 0.08}}, X_WV * At(0, 0, height + 0.08), stone,
+            1.5);
   auto relief = std::make_shared<Mesh>();
   const int panels = std::max(2, static_cast<int>(length / 0.9));
   const double width = length / panels;
@@ -138,7 +149,8 @@ void AddCarvedWall(World& world, int stone, int carving, const std::string& name
       for (int k = 0; k < 5; ++k) {  // bosses, as figures worn by rain
         const Vec3 at = middle + Vec3(random.Uniform(-0.3, 0.3) * width, 0.0, random.Uniform(-0.24, 0.24) * height);
         const double r = random.Uniform(0.06, 0.15) * std::min(1.0, width);
-        const std::array<Vec2, 5> profile{{{r, 0.0}, {0.92 * r, 0.35 * r}, {0.7 * r, 0.65 * r}, {0.4 * r, 0.85 * r}, {0.0, 0.92 * r}}};
+        const std::array<Vec2, 5> profile{
+            {{r, 0.0}, {0.92 * r, 0.35 * r}, {0.7 * r, 0.65 * r}, {0.4 * r, 0.85 * r}, {0.0, 0.92 * r}}};
         const Quat q = Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(0.0, side, 0.0));
         AddLathe(*relief, profile, 10, {q, at + Vec3(0.0, 0.025 * side, 0.0)}, 1.5);
       }
@@ -149,7 +161,8 @@ void AddCarvedWall(World& world, int stone, int carving, const std::string& name
 
 void AddSculpture(World& world, int stone, const std::string& name, const Transform& X_WS, double height) {
   const double plinth = 0.28 * height;
-  AddObject(world, name + "/step", geometry::Box{{0.30 * height, 0.30 * height, 0.5}}, X_WS * At(0, 0, -0.38), stone, 1.5);
+  AddObject(world, name + "/step", geometry::Box{{0.30 * height, 0.30 * height, 0.5}}, X_WS * At(0, 0, -0.38), stone,
+            1.5);
   AddObject(world, name + "/plinth", geometry::Box{{0.20 * height, 0.20 * height, 0.5 * plinth}},
             X_WS * At(0, 0, 0.5 * plinth), stone, 1.5);
   const double s = (height - plinth) / 1.8;  // of a figure 1.8 m tall

@@ -50,8 +50,10 @@ std::shared_ptr<const Mesh> CrownHeart(const Vec3& middle, const Vec3& size, Ran
                                  std::sin(latitude));
       const double bump = pole ? 1.0 : bumps[static_cast<std::size_t>(row * kColumns + column % kColumns)];
       const Vec3 p = middle + bump * d.cwiseProduct(size);
-      mesh->vertices.push_back({p.cast<float>(), d.cwiseQuotient(size).normalized().cast<float>(),
-                                base::Vec2(2.0 * kPi * size.x() * column / kColumns / 1.6, kPi * size.z() * row / kRows / 1.6).cast<float>()});
+      mesh->vertices.push_back(
+          {p.cast<float>(), d.cwiseQuotient(size).normalized().cast<float>(),
+           base::Vec2(2.0 * kPi * size.x() * column / kColumns / 1.6, kPi * size.z() * row / kRows / 1.6)
+               .cast<float>()});
     }
   }
   for (std::uint32_t row = 0; row < kRows; ++row) {
@@ -76,7 +78,7 @@ TreeModel Broadleaf(double height, RandomStream& random) {
   const Vec3 heart(0.0, 0.0, 0.62 * height);
   constexpr int kBoughs = 6;
   const double half = std::clamp(0.12 * height, 0.5, 1.25);
-  const Vec3 core(0.33 * model.reach, 0.33 * model.reach, 0.14 * height);
+  const Vec3 core(0.27 * model.reach, 0.27 * model.reach, 0.12 * height);
   model.heart = CrownHeart(heart, core, random);
   const auto clump = [&](const Vec3& middle, double spread, int cards) {
     for (int i = 0; i < cards; ++i) {
@@ -139,7 +141,8 @@ TreeModel Conifer(double height, RandomStream& random) {
       const Vec3 side = (std::cos(roll) * across + std::sin(roll) * along.cross(across)).normalized();
       const Vec3 root(0.0, 0.0, z + 0.45 * rise);
       const Vec3 normal = Vec3(0.8 * Vec3::UnitZ() + 0.7 * Level(angle)).normalized();
-      AddCard(*crown, root + 0.55 * length * along, 0.5 * length * along, 0.34 * length * side, {normal, normal, normal, normal});
+      AddCard(*crown, root + 0.55 * length * along, 0.5 * length * along, 0.34 * length * side,
+              {normal, normal, normal, normal});
     }
   }
   profile.emplace_back(0.0, 0.99 * height);
@@ -150,7 +153,8 @@ TreeModel Conifer(double height, RandomStream& random) {
     const double angle = 2.4 * i + random.Uniform(-0.4, 0.4);
     const Vec3 root(0.0, 0.0, model.bare * random.Uniform(0.55, 0.95));
     const std::array<TubePoint, 2> bough{
-        {{root, 0.2 * model.trunk_radius}, {root + 0.5 * model.reach * Vec3(Level(angle) - 0.2 * Vec3::UnitZ()), 0.005}}};
+        {{root, 0.2 * model.trunk_radius},
+         {root + 0.5 * model.reach * Vec3(Level(angle) - 0.2 * Vec3::UnitZ()), 0.005}}};
     AddTube(*boughs, bough, 3, 0.6);
   }
   model.boughs = std::move(boughs);
@@ -158,9 +162,7 @@ TreeModel Conifer(double height, RandomStream& random) {
   return model;
 }
 
-Eigen::Vector3f Varied(const Eigen::Vector3f& colour, float share) {
-  return (colour * share).cwiseMin(1.0F);
-}
+Eigen::Vector3f Varied(const Eigen::Vector3f& colour, float share) { return (colour * share).cwiseMin(1.0F); }
 
 }  // namespace
 
@@ -183,12 +185,17 @@ PlantLooks AddTreeLooks(World& world, TreeKind kind, const std::string& name, st
   foliage.leaves.light = Varied(foliage.leaves.light, light);
   foliage.wood = bark;
   PlantLooks looks;
-  looks.bark = AddMaterial(world, name + "/bark",
-                           {.pattern = Pattern::kBark, .palette = bark, .size = 256, .contrast = 0.2, .infrared = 1.2F}, seed);
+  looks.bark =
+      AddMaterial(world, name + "/bark",
+                  {.pattern = Pattern::kBark, .palette = bark, .size = 256, .contrast = 0.2, .infrared = 1.2F}, seed);
   looks.leaves = AddFoliageMaterial(world, name + "/leaves", foliage, seed);
   looks.dense = AddMaterial(world, name + "/dense",
-                            {.pattern = Pattern::kFoliage, .palette = {foliage.leaves.dark, foliage.leaves.light},
-                             .size = 256, .contrast = 0.25, .infrared = 1.9F}, seed);
+                            {.pattern = Pattern::kFoliage,
+                             .palette = {foliage.leaves.dark, foliage.leaves.light},
+                             .size = 256,
+                             .contrast = 0.25,
+                             .infrared = 1.9F},
+                            seed);
   return looks;
 }
 
@@ -196,8 +203,8 @@ PlantLooks AddShrubLooks(World& world, const std::string& name, std::uint64_t se
   PlantLooks looks;
   const Palette bark{{0.14F, 0.11F, 0.08F}, {0.42F, 0.36F, 0.30F}};
   looks.bark = AddPlainMaterial(world, name + "/stems", {0.30F, 0.25F, 0.20F});
-  looks.leaves = AddFoliageMaterial(
-      world, name + "/leaves", {.leaves = {{0.15F, 0.20F, 0.08F}, {0.60F, 0.70F, 0.32F}}, .wood = bark}, seed);
+  looks.leaves = AddFoliageMaterial(world, name + "/leaves",
+                                    {.leaves = {{0.15F, 0.20F, 0.08F}, {0.60F, 0.70F, 0.32F}}, .wood = bark}, seed);
   return looks;
 }
 
@@ -215,9 +222,9 @@ void PlantTree(World& world, const TreeModel& model, const PlantLooks& looks, co
                const Stand& at) {
   const Transform X_WT{base::FromYawPitchRoll(at.yaw, at.lean, 0.0), at.foot};
   const auto add = [&](const char* part, geometry::Shape shape, double z, int material, double scale) {
-    const std::size_t index = AddObject(world, name + "/" + part, std::move(shape),
-                                        X_WT * Transform{base::Quat::Identity(), {0.0, 0.0, z}}, material, scale,
-                                        SemanticClass::kTree);
+    const std::size_t index =
+        AddObject(world, name + "/" + part, std::move(shape), X_WT * Transform{base::Quat::Identity(), {0.0, 0.0, z}},
+                  material, scale, SemanticClass::kTree);
     return index;
   };
   const double r = model.trunk_radius;
@@ -242,13 +249,14 @@ ShrubModel MakeShrubModel(double reach, double height, RandomStream& random) {
   for (int i = 0; i < kStems; ++i) {
     const double angle = 2.0 * kPi * (i + random.Uniform(-0.3, 0.3)) / kStems;
     const double out = (reach - half) * random.Uniform(0.35, 1.0);
-    const Vec3 tip = out * Level(angle) + Vec3(0.0, 0.0, (height - half) * std::sqrt(std::max(0.1, 1.0 - std::pow(out / reach, 2))));
+    const Vec3 tip =
+        out * Level(angle) + Vec3(0.0, 0.0, (height - half) * std::sqrt(std::max(0.1, 1.0 - std::pow(out / reach, 2))));
     const Vec3 foot = 0.12 * reach * Level(angle) - Vec3(0.0, 0.0, 0.15);
     const std::array<TubePoint, 2> stem{{{foot, 0.012 + 0.008 * height}, {tip, 0.005}}};
     AddTube(*stems, stem, 3, 0.5);
     for (const double share : {1.0, 0.55}) {
-      AddSprayCard(*leaves, (share * tip + 0.12 * half * random.GaussianVec3()).cwiseMax(Vec3(-1e9, -1e9, 0.5 * half)), half,
-                   heart, random);
+      AddSprayCard(*leaves, (share * tip + 0.12 * half * random.GaussianVec3()).cwiseMax(Vec3(-1e9, -1e9, 0.5 * half)),
+                   half, heart, random);
     }
   }
   AddSprayCard(*leaves, {0.0, 0.0, height - 0.8 * half}, half, heart, random);

@@ -11,8 +11,9 @@
 namespace alula::worlds {
 
 // Plants. Wood and the heart of a crown are solid: what stands in the way of a vehicle. The foliage about them is cards
-// with holes (a material with alpha), seen but not hit: a ray goes through a hole of the picture and would be stopped by the card in Bullet, so that the two
-// would disagree. An object collides exactly when its material has no holes (docs/decisions/0020).
+// with holes (a material with alpha), seen but not hit: a ray goes through a hole of the picture and would be stopped
+// by the card in Bullet, so that the two would disagree. An object collides exactly when its material has no holes
+// (docs/decisions/0020).
 
 enum class TreeKind { kBroadleaf, kConifer };
 

@@ -28,7 +28,8 @@ void PlantTrees(World& world, const ForestConfig& config, const Land& land, cons
 
 void Describe(base::Description& d, ForestConfig& c) {
   d.Field("trees", c.trees, {.meaning = "trees in the 64 m x 64 m that are flown in, at most", .min = 0, .max = 220});
-  d.Field("tree_height_min", c.tree_height_min, {.unit = "m", .meaning = "least height of a tree", .min = 3.0, .max = 20.0});
+  d.Field("tree_height_min", c.tree_height_min,
+          {.unit = "m", .meaning = "least height of a tree", .min = 3.0, .max = 20.0});
   d.Field("tree_height_max", c.tree_height_max,
           {.unit = "m", .meaning = "largest height of a tree", .min = 3.0, .max = 20.0});
   d.Check("tree_height_max", [&c] {
@@ -56,7 +57,8 @@ World MakeWorld(const ForestConfig& config, std::uint64_t seed) {
                        {}, random);
   const Vec2 start(-kHalf + 5.0, random.Uniform(-6.0, 6.0));
   const Vec2 goal(kHalf - 5.0, random.Uniform(-6.0, 6.0));
-  AddPadOn(world, land, AddPadMaterial(world, seed), start, 1.2, std::atan2(goal.y() - start.y(), goal.x() - start.x()));
+  AddPadOn(world, land, AddPadMaterial(world, seed), start, 1.2,
+           std::atan2(goal.y() - start.y(), goal.x() - start.x()));
   const Surface litter = AddLitterGround(world, seed);
   AddLand(world, land, litter, litter, random);
 
@@ -67,12 +69,19 @@ World MakeWorld(const ForestConfig& config, std::uint64_t seed) {
   const int conifers = std::clamp(static_cast<int>(std::lround(config.conifers * kModels)), 0, kModels);
   const Wood wood = MakeWood(world, config.tree_height_min, config.tree_height_max, kModels - conifers, conifers, seed);
   PlantTrees(world, config, land, wood, plot, seed);
-  AddRubble(world, land, plot, {.boulders = config.boulders, .logs = config.deadwood / 2, .stumps = (config.deadwood + 1) / 2},
+  AddRubble(world, land, plot,
+            {.boulders = config.boulders, .logs = config.deadwood / 2, .stumps = (config.deadwood + 1) / 2},
             wood.looks.front().bark, seed);
   AddShrubs(world, land, plot, config.shrubs, 0.35, 0.8, seed);
   AddTufts(world, land, 300, 0.28, seed, [&](const Vec2& p) { return (p - start).norm() > 2.0; });
-  AddTreeLine(world, land, {.nearest = 2.5, .woods = 0.8, .spacing = 8.5, .height_min = config.tree_height_min,
-                            .height_max = config.tree_height_max, .conifer_share = config.conifers}, seed);
+  AddTreeLine(world, land,
+              {.nearest = 2.5,
+               .woods = 0.8,
+               .spacing = 8.5,
+               .height_min = config.tree_height_min,
+               .height_max = config.tree_height_max,
+               .conifer_share = config.conifers},
+              seed);
   world.target = land.On(goal) + Vec3(0, 0, 2.0);
   FinishWorld(world, land, config.weather, 20.0, seed);
   return world;

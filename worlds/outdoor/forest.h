@@ -12,14 +12,14 @@ namespace alula::worlds {
 struct ForestConfig {
   static constexpr std::string_view kType = "forest";
 
-  int trees = 64;                  // in the 64 m × 64 m of the field, at most
-  double tree_height_min = 6.5;    // m
-  double tree_height_max = 10.0;   // m
-  double spacing = 3.0;            // least distance between stems, m
-  double conifers = 0.25;          // share of the tree models that are conifers
-  double unevenness = 0.12;        // m, 1σ of the ground's bumps
+  int trees = 64;                 // in the 64 m × 64 m of the field, at most
+  double tree_height_min = 6.5;   // m
+  double tree_height_max = 10.0;  // m
+  double spacing = 3.0;           // least distance between stems, m
+  double conifers = 0.25;         // share of the tree models that are conifers
+  double unevenness = 0.12;       // m, 1σ of the ground's bumps
   int boulders = 8;
-  int deadwood = 10;               // logs and stumps
+  int deadwood = 10;  // logs and stumps
   int shrubs = 24;
   WeatherConfig weather;
 };

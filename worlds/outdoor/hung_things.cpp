@@ -43,18 +43,25 @@ std::vector<TubePoint> Dangling(const Vec3& from, double length, double radius, 
 
 HungLooks AddHungLooks(World& world, std::uint64_t seed) {
   HungLooks looks;
-  looks.kite = AddMaterial(world, "kite",
-                           {.pattern = Pattern::kSignal, .palette = {{0.80F, 0.10F, 0.10F}, {0.98F, 0.85F, 0.20F}}, .size = 64}, seed);
+  looks.kite = AddMaterial(
+      world, "kite",
+      {.pattern = Pattern::kSignal, .palette = {{0.80F, 0.10F, 0.10F}, {0.98F, 0.85F, 0.20F}}, .size = 64}, seed);
   looks.spar = AddPlainMaterial(world, "spar", {0.45F, 0.36F, 0.25F});
   looks.balloon = AddPlainMaterial(world, "balloon", {0.85F, 0.12F, 0.18F});
   looks.bag = AddMaterial(world, "bag",
-                          {.pattern = Pattern::kPlaster, .palette = {{0.55F, 0.57F, 0.60F}, {0.95F, 0.95F, 0.95F}}, .size = 64,
-                           .contrast = 0.12}, seed);
+                          {.pattern = Pattern::kPlaster,
+                           .palette = {{0.55F, 0.57F, 0.60F}, {0.95F, 0.95F, 0.95F}},
+                           .size = 64,
+                           .contrast = 0.12},
+                          seed);
   looks.bark = AddMaterial(world, "branch",
-                           {.pattern = Pattern::kBark, .palette = {{0.18F, 0.14F, 0.11F}, {0.60F, 0.52F, 0.44F}}, .size = 64,
-                            .contrast = 0.2}, seed);
-  looks.leaves = AddFoliageMaterial(
-      world, "branch/leaves", {.leaves = {{0.16F, 0.18F, 0.06F}, {0.62F, 0.60F, 0.28F}}, .size = 256}, seed);
+                           {.pattern = Pattern::kBark,
+                            .palette = {{0.18F, 0.14F, 0.11F}, {0.60F, 0.52F, 0.44F}},
+                            .size = 64,
+                            .contrast = 0.2},
+                           seed);
+  looks.leaves = AddFoliageMaterial(world, "branch/leaves",
+                                    {.leaves = {{0.16F, 0.18F, 0.06F}, {0.62F, 0.60F, 0.28F}}, .size = 256}, seed);
   looks.string = AddPlainMaterial(world, "string", {0.75F, 0.73F, 0.68F});
   return looks;
 }
@@ -64,13 +71,15 @@ void HangKite(World& world, const HungLooks& looks, const std::string& name, con
   const double tall = random.Uniform(0.9, 1.2);
   const double wide = 0.8 * tall;
   // Caught at the crossing of its spars; it leans over the wire.
-  const Transform X_LK{base::FromYawPitchRoll(random.Uniform(-0.5, 0.5), random.Uniform(-0.3, 0.3), random.Uniform(-0.5, 0.5)),
-                       {0.0, radius + 0.012, -0.15 * tall}};
+  const Transform X_LK{
+      base::FromYawPitchRoll(random.Uniform(-0.5, 0.5), random.Uniform(-0.3, 0.3), random.Uniform(-0.5, 0.5)),
+      {0.0, radius + 0.012, -0.15 * tall}};
   auto sail = std::make_shared<Mesh>();
   const double top = 0.35 * tall;
   const double bottom = -0.65 * tall;
   const Vec3 belly(0.0, 0.02, 0.0);
-  const std::array<Vec3, 4> rim{Vec3(0, 0, bottom), Vec3(0.5 * wide, -0.03, 0), Vec3(0, 0, top), Vec3(-0.5 * wide, -0.03, 0)};
+  const std::array<Vec3, 4> rim{Vec3(0, 0, bottom), Vec3(0.5 * wide, -0.03, 0), Vec3(0, 0, top),
+                                Vec3(-0.5 * wide, -0.03, 0)};
   for (std::size_t i = 0; i < 4; ++i) {  // four triangles about the crossing, from both sides
     const Vec3& a = rim[i];
     const Vec3& b = rim[(i + 1) % 4];
@@ -81,7 +90,8 @@ void HangKite(World& world, const HungLooks& looks, const std::string& name, con
         sail->vertices.push_back({p.cast<float>(), n.cast<float>(),
                                   Eigen::Vector2f(static_cast<float>(0.5 + p.x()), static_cast<float>(0.5 + p.z()))});
       }
-      front ? sail->triangles.push_back({first, first + 1, first + 2}) : sail->triangles.push_back({first, first + 2, first + 1});
+      front ? sail->triangles.push_back({first, first + 1, first + 2})
+            : sail->triangles.push_back({first, first + 2, first + 1});
     }
   }
   Put(world, name + "/sail", std::move(sail), X_WL * X_LK, looks.kite);
@@ -113,7 +123,8 @@ void HangBalloon(World& world, const HungLooks& looks, const std::string& name, 
   }
   AddTube(*string, coil, 4, 0.5);
   const double drop = random.Uniform(0.35, 0.7);
-  const std::vector<TubePoint> line{{coil.back().p, 0.003}, {Vec3(0.1, 0.02, -0.5 * drop), 0.003}, {Vec3(0.11, 0.03, -drop), 0.003}};
+  const std::vector<TubePoint> line{
+      {coil.back().p, 0.003}, {Vec3(0.1, 0.02, -0.5 * drop), 0.003}, {Vec3(0.11, 0.03, -drop), 0.003}};
   AddTube(*string, line, 4, 0.5);
   Put(world, name + "/string", std::move(string), X_WL, looks.string);
   auto knot = std::make_shared<Mesh>();
@@ -141,8 +152,10 @@ void HangBag(World& world, const HungLooks& looks, const std::string& name, cons
       const double hang = down / (along < 0.0 ? back : front);
       const double narrow = 1.0 - 0.35 * hang;
       const double x = wide * narrow * (static_cast<double>(column) / kColumns - 0.5);
-      const double fold = 0.05 * hang * std::sin(9.0 * column / kColumns + 2.0 * hang) + 0.012 * hang * random.Gaussian();
-      const double y = (along < 0.0 ? -1.0 : 1.0) * std::min(radius + 0.006, 0.5 * std::abs(along)) + blown * hang * hang + fold;
+      const double fold =
+          0.05 * hang * std::sin(9.0 * column / kColumns + 2.0 * hang) + 0.012 * hang * random.Gaussian();
+      const double y =
+          (along < 0.0 ? -1.0 : 1.0) * std::min(radius + 0.006, 0.5 * std::abs(along)) + blown * hang * hang + fold;
       const double z = radius + 0.008 - down;
       grid[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = {x, y, z};
     }
@@ -188,7 +201,8 @@ void HangBranch(World& world, const HungLooks& looks, const std::string& name, c
   twig(stem[2].p, stem[2].p + Vec3(-0.28, 0.18, -0.12));
   twig(stem[3].p, stem[3].p + Vec3(0.10, 0.20, -0.10));
   Put(world, name + "/wood", std::move(wood), X_WL, looks.bark);
-  const std::size_t crown = AddObject(world, name + "/leaves", geometry::MeshShape{std::move(leaves)}, X_WL, looks.leaves, 1.0);
+  const std::size_t crown =
+      AddObject(world, name + "/leaves", geometry::MeshShape{std::move(leaves)}, X_WL, looks.leaves, 1.0);
   world.objects[crown].collides = false;
 }
 

@@ -30,12 +30,9 @@ constexpr double kTop = 30.0;
 /// A flat paved place to the horizon's hills.
 Land AddPavedPlace(World& world, const Vec2& start, std::uint64_t seed) {
   RandomStream random(seed, "world/land");
-  Land land = MakeLand({.half = Vec2::Constant(kHalf),
-                        .cell = 4.0,
-                        .swell = {.height = 0.0},
-                        .relief = {.height = 0.0},
-                        .hills = 9.0},
-                       {}, random);
+  Land land = MakeLand(
+      {.half = Vec2::Constant(kHalf), .cell = 4.0, .swell = {.height = 0.0}, .relief = {.height = 0.0}, .hills = 9.0},
+      {}, random);
   AddPadOn(world, land, AddPadMaterial(world, seed), start, 1.0, 0.5 * kPi);
   const Surface paving = AddPavedGround(world, seed);
   AddLand(world, land, paving, AddMeadow(world, seed), random);
@@ -62,7 +59,8 @@ void AddTown(World& world, const Land& land, int storeys_min, int storeys_max, s
       BlockConfig block;
       block.length = random.Uniform(15.0, 22.0);
       block.width = random.Uniform(9.0, 12.0);
-      block.storeys = storeys_min + static_cast<int>(random.Index(static_cast<std::uint64_t>(storeys_max - storeys_min + 1)));
+      block.storeys =
+          storeys_min + static_cast<int>(random.Index(static_cast<std::uint64_t>(storeys_max - storeys_min + 1)));
       const double back = random.Uniform(9.0, 12.0);  // from the place's border
       const Vec3 at = q * Vec3(x + 0.5 * block.length, kHalf + back + 0.5 * block.width, 0.0);
       x += block.length + random.Uniform(2.5, 6.0);
@@ -76,7 +74,8 @@ void AddLamps(World& world, const Land& land, bool lit, const std::vector<Vec2>&
   const int metal = AddPlainMaterial(world, "metal", {0.30F, 0.32F, 0.33F});
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double inward = std::atan2(-places[i].y(), -places[i].x());
-    AddStreetLamp(world, metal, "street_lamp" + std::to_string(i), {base::FromYaw(inward), land.On(places[i])}, {}, lit);
+    AddStreetLamp(world, metal, "street_lamp" + std::to_string(i), {base::FromYaw(inward), land.On(places[i])}, {},
+                  lit);
   }
 }
 
@@ -96,22 +95,31 @@ class BedPlanter {
  public:
   BedPlanter(World& world, std::uint64_t seed) : world_(world), seed_(seed), random_(seed, "world/beds") {
     stone_ = AddMaterial(world, "kerb",
-                         {.pattern = Pattern::kConcrete, .palette = {{0.45F, 0.44F, 0.42F}, {0.84F, 0.82F, 0.78F}}, .size = 256,
-                          .contrast = 0.14}, seed);
+                         {.pattern = Pattern::kConcrete,
+                          .palette = {{0.45F, 0.44F, 0.42F}, {0.84F, 0.82F, 0.78F}},
+                          .size = 256,
+                          .contrast = 0.14},
+                         seed);
     soil_ = AddMaterial(world, "soil",
-                        {.pattern = Pattern::kSoil, .palette = {{0.20F, 0.14F, 0.10F}, {0.60F, 0.48F, 0.36F}}, .size = 512,
-                         .contrast = 0.16}, seed);
+                        {.pattern = Pattern::kSoil,
+                         .palette = {{0.20F, 0.14F, 0.10F}, {0.60F, 0.48F, 0.36F}},
+                         .size = 512,
+                         .contrast = 0.16},
+                        seed);
     const std::array<Palette, 3> blossoms{{{{0.70F, 0.10F, 0.14F}, {0.98F, 0.50F, 0.42F}},
                                            {{0.80F, 0.60F, 0.08F}, {1.00F, 0.92F, 0.45F}},
                                            {{0.45F, 0.20F, 0.60F}, {0.85F, 0.70F, 0.95F}}}};
     for (std::size_t i = 0; i < blossoms.size(); ++i) {
-      plants_.push_back(AddFoliageMaterial(
-          world, "flowers" + std::to_string(i),
-          {.kind = Foliage::kFlowers, .leaves = {{0.15F, 0.21F, 0.08F}, {0.55F, 0.66F, 0.30F}}, .blossom = blossoms[i], .size = 128},
-          seed));
+      plants_.push_back(AddFoliageMaterial(world, "flowers" + std::to_string(i),
+                                           {.kind = Foliage::kFlowers,
+                                            .leaves = {{0.15F, 0.21F, 0.08F}, {0.55F, 0.66F, 0.30F}},
+                                            .blossom = blossoms[i],
+                                            .size = 128},
+                                           seed));
     }
     plants_.push_back(AddFoliageMaterial(
-        world, "weeds", {.kind = Foliage::kTuft, .leaves = {{0.15F, 0.20F, 0.08F}, {0.62F, 0.68F, 0.38F}}, .size = 128}, seed));
+        world, "weeds", {.kind = Foliage::kTuft, .leaves = {{0.15F, 0.20F, 0.08F}, {0.62F, 0.68F, 0.38F}}, .size = 128},
+        seed));
   }
 
   void Add(const std::string& name, const Bed& bed, const Transform& X, double plants_per_m2) {
@@ -166,7 +174,8 @@ class BedPlanter {
         const Vec3 out(std::cos(angle), std::sin(angle), 0.0);
         const Vec3 across = side * Vec3(-out.y(), out.x(), 0.0);
         const Vec3 middle = 0.5 * (g.r0 + g.r1) * out + 0.5 * bed.kerb * across + Vec3(0, 0, 0.5 * (bed.height - 0.2));
-        AddBoxPart(*kerb, {g.r1 - g.r0 + 2.0 * bed.kerb, bed.kerb, bed.height + 0.2}, {base::FromYaw(angle), middle}, 1.5);
+        AddBoxPart(*kerb, {g.r1 - g.r0 + 2.0 * bed.kerb, bed.kerb, bed.height + 0.2}, {base::FromYaw(angle), middle},
+                   1.5);
       }
     }
     AddObject(world_, name + "/kerb", geometry::MeshShape{std::move(kerb)}, X, stone_, 1.0);
@@ -182,7 +191,8 @@ class BedPlanter {
 }  // namespace
 
 void Describe(base::Description& d, LandingSquareConfig& c) {
-  d.Field("ring", c.ring, {.unit = "m", .meaning = "of the circle on which the obstacles stand", .min = 5.0, .max = 14.0});
+  d.Field("ring", c.ring,
+          {.unit = "m", .meaning = "of the circle on which the obstacles stand", .min = 5.0, .max = 14.0});
   d.Field("storeys_min", c.storeys_min, {.meaning = "least storeys of a building", .min = 1, .max = 12});
   d.Field("storeys_max", c.storeys_max, {.meaning = "most storeys of a building", .min = 1, .max = 12});
   d.Check("storeys_max", [&c] {
@@ -200,19 +210,25 @@ World MakeWorld(const LandingSquareConfig& config, std::uint64_t seed) {
   AddTown(world, land, config.storeys_min, config.storeys_max, seed);
 
   const int stone = AddMaterial(world, "stone",
-                                {.pattern = Pattern::kPlaster, .palette = {{0.44F, 0.42F, 0.38F}, {0.86F, 0.83F, 0.76F}}, .size = 256,
-                                 .contrast = 0.14}, seed);
+                                {.pattern = Pattern::kPlaster,
+                                 .palette = {{0.44F, 0.42F, 0.38F}, {0.86F, 0.83F, 0.76F}},
+                                 .size = 256,
+                                 .contrast = 0.14},
+                                seed);
   const int carving = AddMaterial(world, "carving",
-                                  {.pattern = Pattern::kRubble, .palette = {{0.36F, 0.33F, 0.28F}, {0.82F, 0.76F, 0.66F}}, .size = 256,
-                                   .contrast = 0.15}, seed);
+                                  {.pattern = Pattern::kRubble,
+                                   .palette = {{0.36F, 0.33F, 0.28F}, {0.82F, 0.76F, 0.66F}},
+                                   .size = 256,
+                                   .contrast = 0.15},
+                                  seed);
   const double turn = random.Uniform(0.0, 2.0 * kPi);
   for (int i = 0; i < 5; ++i) {
     const double angle = turn + 2.0 * kPi * i / 5.0;
     const Vec2 p = config.ring * Vec2(std::cos(angle), std::sin(angle));
     const Transform X{base::FromYaw(angle + 0.5 * kPi + random.Uniform(-0.15, 0.15)), land.On(p)};
     if (i % 2 == 0) {
-      AddCarvedWall(world, stone, carving, "wall" + std::to_string(i / 2), X, random.Uniform(3.6, 4.6), random.Uniform(2.0, 2.6),
-                    random);
+      AddCarvedWall(world, stone, carving, "wall" + std::to_string(i / 2), X, random.Uniform(3.6, 4.6),
+                    random.Uniform(2.0, 2.6), random);
     } else {
       AddStoneBench(world, stone, "bench" + std::to_string(i / 2), X, random.Uniform(3.6, 4.8));
     }
@@ -225,12 +241,19 @@ World MakeWorld(const LandingSquareConfig& config, std::uint64_t seed) {
     for (const double y : {-18.5, 18.5}) {
       const Transform X{Quat::Identity(), land.On({x, y})};
       planter.Add("bed" + std::to_string(number), {.ground = {0.0, 1.2}, .kerb = 0.25, .height = 0.4}, X, 8.0);
-      PlantTree(world, wood.models[random.Index(wood.models.size())], wood.looks.front(), "tree" + std::to_string(number++),
-                {X.p + Vec3(0, 0, 0.34), random.Uniform(-kPi, kPi)});
+      PlantTree(world, wood.models[random.Index(wood.models.size())], wood.looks.front(),
+                "tree" + std::to_string(number++), {X.p + Vec3(0, 0, 0.34), random.Uniform(-kPi, kPi)});
     }
   }
   AddLamps(world, land, IsDark(config.weather),
-           {{-16.0, -10.0}, {-16.0, 10.0}, {16.0, -10.0}, {16.0, 10.0}, {-6.0, 17.0}, {6.0, 17.0}, {9.0, -19.0}, {-9.0, -19.0}});
+           {{-16.0, -10.0},
+            {-16.0, 10.0},
+            {16.0, -10.0},
+            {16.0, 10.0},
+            {-6.0, 17.0},
+            {6.0, 17.0},
+            {9.0, -19.0},
+            {-9.0, -19.0}});
   AddTreeLine(world, land, {.nearest = 36.0, .woods = 0.35, .height_min = 8.0, .height_max = 14.0}, seed);
   EndWorld(world, land, config.weather, seed);
   return world;
@@ -239,7 +262,8 @@ World MakeWorld(const LandingSquareConfig& config, std::uint64_t seed) {
 void Describe(base::Description& d, LandingFlowerbedsConfig& c) {
   d.Field("cars", c.cars, {.meaning = "cars parked before the round bed", .min = 0, .max = 5});
   d.Field("trees", c.trees, {.meaning = "trees on the beds", .min = 0, .max = 40});
-  d.Field("plants_per_m2", c.plants_per_m2, {.meaning = "flowers and weeds on a square metre of bed", .min = 0.5, .max = 12.0});
+  d.Field("plants_per_m2", c.plants_per_m2,
+          {.meaning = "flowers and weeds on a square metre of bed", .min = 0.5, .max = 12.0});
   d.Field("weather", c.weather, {.meaning = "hour, sun, clouds, fog and wind"});
 }
 
@@ -281,15 +305,20 @@ World MakeWorld(const LandingFlowerbedsConfig& config, std::uint64_t seed) {
     PlantTree(world, wood.models[pick], wood.looks[pick], "tree" + std::to_string(i), {p, random.Uniform(-kPi, kPi)});
   });
   plant(26, 1.1, [&](const Vec3& p, int i) {
-    PlantShrub(world, shrubs[random.Index(2)], shrub_looks, "shrub" + std::to_string(i), {p, random.Uniform(-kPi, kPi)});
+    PlantShrub(world, shrubs[random.Index(2)], shrub_looks, "shrub" + std::to_string(i),
+               {p, random.Uniform(-kPi, kPi)});
   });
-  const std::array<Eigen::Vector3f, 5> paints{{{0.78F, 0.78F, 0.80F}, {0.60F, 0.10F, 0.10F}, {0.14F, 0.22F, 0.42F},
-                                               {0.90F, 0.90F, 0.88F}, {0.22F, 0.24F, 0.25F}}};
+  const std::array<Eigen::Vector3f, 5> paints{{{0.78F, 0.78F, 0.80F},
+                                               {0.60F, 0.10F, 0.10F},
+                                               {0.14F, 0.22F, 0.42F},
+                                               {0.90F, 0.90F, 0.88F},
+                                               {0.22F, 0.24F, 0.25F}}};
   for (int i = 0; i < config.cars; ++i) {
     const std::string name = "car" + std::to_string(i);
     const double x = heart.x() + 2.9 * (i - 0.5 * (config.cars - 1)) + random.Uniform(-0.15, 0.15);
     const double y = heart.y() - round - random.Uniform(3.6, 4.2);
-    AddCar(world, AddCarLooks(world, name, paints[(static_cast<std::size_t>(i) + random.Index(2)) % paints.size()]), name,
+    AddCar(world, AddCarLooks(world, name, paints[(static_cast<std::size_t>(i) + random.Index(2)) % paints.size()]),
+           name,
            {base::FromYaw((random.Uniform() < 0.7 ? 0.5 : -0.5) * kPi + random.Uniform(-0.05, 0.05)), land.On({x, y})});
   }
   AddLamps(world, land, IsDark(config.weather),

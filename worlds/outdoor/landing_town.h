@@ -15,8 +15,8 @@ namespace alula::worlds {
 struct LandingSquareConfig {
   static constexpr std::string_view kType = "landing_square";
 
-  double ring = 9.0;      // m, of the circle on which the obstacles stand
-  int storeys_min = 3;    // of the buildings
+  double ring = 9.0;    // m, of the circle on which the obstacles stand
+  int storeys_min = 3;  // of the buildings
   int storeys_max = 6;
   WeatherConfig weather;
 };

@@ -61,8 +61,8 @@ void AddFurrows(World& world, const Land& land, int soil, const Vec2& low, const
       AddQuad(*mesh, {at(next, half, -0.02), at(x, half, -0.02), a, b}, 1.5);
     }
     if (ridge % 4 == 3 || ridge + 1 == ridges) {
-      AddObject(world, "furrow" + std::to_string(ridge / 4), geometry::MeshShape{std::exchange(mesh, nullptr)}, {}, soil, 1.0,
-                SemanticClass::kGround);
+      AddObject(world, "furrow" + std::to_string(ridge / 4), geometry::MeshShape{std::exchange(mesh, nullptr)}, {},
+                soil, 1.0, SemanticClass::kGround);
     }
   }
 }
@@ -71,13 +71,15 @@ void AddFurrows(World& world, const Land& land, int soil, const Vec2& low, const
 
 void Describe(base::Description& d, LandingForestConfig& c) {
   d.Field("trees", c.trees, {.meaning = "trees, at most", .min = 0, .max = 200});
-  d.Field("tree_height_min", c.tree_height_min, {.unit = "m", .meaning = "least height of a tree", .min = 3.0, .max = 20.0});
+  d.Field("tree_height_min", c.tree_height_min,
+          {.unit = "m", .meaning = "least height of a tree", .min = 3.0, .max = 20.0});
   d.Field("tree_height_max", c.tree_height_max,
           {.unit = "m", .meaning = "largest height of a tree", .min = 3.0, .max = 20.0});
   d.Check("tree_height_max", [&c] {
     return c.tree_height_max >= c.tree_height_min ? std::string() : std::string("must not be below tree_height_min");
   });
-  d.Field("clearing_min", c.clearing_min, {.unit = "m", .meaning = "least radius of the clearing", .min = 2.0, .max = 12.0});
+  d.Field("clearing_min", c.clearing_min,
+          {.unit = "m", .meaning = "least radius of the clearing", .min = 2.0, .max = 12.0});
   d.Field("clearing_max", c.clearing_max,
           {.unit = "m", .meaning = "largest radius of the clearing", .min = 2.0, .max = 12.0});
   d.Check("clearing_max", [&c] {
@@ -114,8 +116,13 @@ World MakeWorld(const LandingForestConfig& config, std::uint64_t seed) {
   AddShrubs(world, land, plot, 40, 0.35, 0.75, seed);
   AddTufts(world, land, 260, 0.25, seed,
            [&](const Vec2& p) { return (p - start).norm() > 1.6 && (p - clearing).norm() > radius - 0.3; });
-  AddTreeLine(world, land, {.nearest = 2.5, .woods = 0.8, .spacing = 8.0, .height_min = config.tree_height_min + 1.0,
-                            .height_max = config.tree_height_max + 2.0}, seed);
+  AddTreeLine(world, land,
+              {.nearest = 2.5,
+               .woods = 0.8,
+               .spacing = 8.0,
+               .height_min = config.tree_height_min + 1.0,
+               .height_max = config.tree_height_max + 2.0},
+              seed);
   EndWorld(world, land, config.weather, seed);
   return world;
 }
@@ -158,16 +165,19 @@ World MakeWorld(const LandingSlopeConfig& config, std::uint64_t seed) {
   plot.Take(start, 2.5);
   plot.Take(figure, 2.5);
   const int stone = AddMaterial(world, "sculpture",
-                                {.pattern = Pattern::kPlaster, .palette = {{0.42F, 0.41F, 0.38F}, {0.82F, 0.80F, 0.75F}}, .size = 256,
+                                {.pattern = Pattern::kPlaster,
+                                 .palette = {{0.42F, 0.41F, 0.38F}, {0.82F, 0.80F, 0.75F}},
+                                 .size = 256,
                                  .contrast = 0.14},
                                 seed);
   AddSculpture(world, stone, "sculpture", {base::FromYaw(-0.5 * kPi), land.On(figure)}, config.sculpture_height);
   const Wood wood = MakeWood(world, 5.0, 8.5, 2, 1, seed);
   PlantWood(world, land, plot, wood, config.trees, 4.0, seed,
             [&](const Vec2& p) { return std::abs(p.x()) > 13.0 || p.y() > 17.0; });
-  AddRubble(world, land, plot, {.boulders = config.boulders, .size_min = 0.3, .size_max = 0.9},
-            wood.looks.front().bark, seed, [&](const Vec2& p) { return p.y() > foot - 2.0; });
-  AddShrubs(world, land, plot, 22, 0.35, 0.7, seed, [&](const Vec2& p) { return p.y() > foot || std::abs(p.x()) > 15.0; });
+  AddRubble(world, land, plot, {.boulders = config.boulders, .size_min = 0.3, .size_max = 0.9}, wood.looks.front().bark,
+            seed, [&](const Vec2& p) { return p.y() > foot - 2.0; });
+  AddShrubs(world, land, plot, 22, 0.35, 0.7, seed,
+            [&](const Vec2& p) { return p.y() > foot || std::abs(p.x()) > 15.0; });
   AddTufts(world, land, 420, 0.22, seed, [&](const Vec2& p) { return (p - start).norm() > 1.6 && p.y() > foot - 1.0; });
   AddTreeLine(world, land, {.nearest = 4.0, .woods = 0.5}, seed);
   EndWorld(world, land, config.weather, seed);
@@ -197,7 +207,9 @@ World MakeWorld(const LandingFieldConfig& config, std::uint64_t seed) {
   const Surface grass = AddGrassGround(world, seed);
   AddLand(world, land, grass, AddMeadow(world, seed), random);
   const int soil = AddMaterial(world, "soil",
-                               {.pattern = Pattern::kSoil, .palette = {{0.24F, 0.17F, 0.11F}, {0.70F, 0.56F, 0.42F}}, .size = 512,
+                               {.pattern = Pattern::kSoil,
+                                .palette = {{0.24F, 0.17F, 0.11F}, {0.70F, 0.56F, 0.42F}},
+                                .size = 512,
                                 .contrast = 0.16},
                                seed);
   const double strip = random.Uniform(13.0, 15.0);  // y where the ploughed strip begins
@@ -218,7 +230,9 @@ World MakeWorld(const LandingFieldConfig& config, std::uint64_t seed) {
   std::vector<Vec3> line;
   for (double x = -kHalf + 1.0; x <= kHalf - 1.0; x += 2.3) line.push_back(land.On({x, strip - 1.2}));
   const int wood_grey = AddMaterial(world, "fence",
-                                    {.pattern = Pattern::kWood, .palette = {{0.28F, 0.24F, 0.20F}, {0.62F, 0.56F, 0.48F}}, .size = 128,
+                                    {.pattern = Pattern::kWood,
+                                     .palette = {{0.28F, 0.24F, 0.20F}, {0.62F, 0.56F, 0.48F}},
+                                     .size = 128,
                                      .contrast = 0.18},
                                     seed);
   AddFence(world, wood_grey, "fence", line, 1.1);

@@ -14,12 +14,12 @@ namespace alula::worlds {
 struct LandingForestConfig {
   static constexpr std::string_view kType = "landing_forest";
 
-  int trees = 80;                  // at most
-  double tree_height_min = 5.0;    // m
-  double tree_height_max = 8.0;    // m
-  double clearing_min = 3.5;       // m, radius
-  double clearing_max = 5.0;       // m
-  double unevenness = 0.12;        // m, 1σ of the ground's bumps under the trees
+  int trees = 80;                // at most
+  double tree_height_min = 5.0;  // m
+  double tree_height_max = 8.0;  // m
+  double clearing_min = 3.5;     // m, radius
+  double clearing_max = 5.0;     // m
+  double unevenness = 0.12;      // m, 1σ of the ground's bumps under the trees
   WeatherConfig weather;
 };
 void Describe(base::Description& d, LandingForestConfig& c);
@@ -30,7 +30,7 @@ World MakeWorld(const LandingForestConfig& config, std::uint64_t seed);
 struct LandingSlopeConfig {
   static constexpr std::string_view kType = "landing_slope";
 
-  double slope = 0.29;          // rad, of the hillside
+  double slope = 0.29;  // rad, of the hillside
   int boulders = 22;
   int trees = 26;
   double sculpture_height = 3.6;  // m, with its plinth

@@ -55,8 +55,8 @@ World MakeWorld(const OpenFieldConfig& config, std::uint64_t seed) {
   AddHouse(world, looks, "barn", {base::FromYaw(random.Uniform(-kPi, kPi)), land.On(place)}, {}, random);
   AddTufts(world, land, config.tufts, 0.22, seed,
            [&](const Vec2& p) { return p.norm() > 1.6 && (p - place).norm() > 6.0; });
-  AddTreeLine(world, land, {.nearest = 42.0, .woods = 0.3, .height_min = 8.0, .height_max = 15.0, .conifer_share = 0.15},
-              seed);
+  AddTreeLine(world, land,
+              {.nearest = 42.0, .woods = 0.3, .height_min = 8.0, .height_max = 15.0, .conifer_share = 0.15}, seed);
   const Vec2 yard = place * (1.0 - 6.6 / distance);
   const int metal = AddPlainMaterial(world, "metal", {0.38F, 0.40F, 0.41F});
   AddStreetLamp(world, metal, "yard_lamp", {base::FromYaw(bearing + kPi), land.On(yard)}, {.height = 4.0},

@@ -25,9 +25,9 @@ using base::Vec3;
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kTowers = 3;
-constexpr double kCorridor = 11.0;   // m to each side of the line that is kept free of trees
-constexpr double kInsulator = 1.35;  // m, of a string for 110 kV
-constexpr double kEarthWire = 0.009; // m, diameter of a 50 mm² steel wire
+constexpr double kCorridor = 11.0;    // m to each side of the line that is kept free of trees
+constexpr double kInsulator = 1.35;   // m, of a string for 110 kV
+constexpr double kEarthWire = 0.009;  // m, diameter of a 50 mm² steel wire
 
 /// A wire from tower to tower, and what it is called.
 struct Wire {
@@ -48,11 +48,17 @@ void AddWire(World& world, int metal, const Wire& wire) {
 /// Towers with their insulators; gives the conductors' spans, then the earth wire's.
 std::vector<Wire> AddLine(World& world, const PowerlineConfig& config, const Land& land, std::uint64_t seed) {
   const int steel = AddMaterial(world, "steel",
-                                {.pattern = Pattern::kSoil, .palette = {{0.40F, 0.42F, 0.43F}, {0.76F, 0.78F, 0.79F}}, .size = 64,
-                                 .contrast = 0.12}, seed);
+                                {.pattern = Pattern::kSoil,
+                                 .palette = {{0.40F, 0.42F, 0.43F}, {0.76F, 0.78F, 0.79F}},
+                                 .size = 64,
+                                 .contrast = 0.12},
+                                seed);
   const int concrete = AddMaterial(world, "concrete",
-                                   {.pattern = Pattern::kConcrete, .palette = {{0.40F, 0.39F, 0.37F}, {0.82F, 0.80F, 0.77F}}, .size = 128,
-                                    .contrast = 0.14}, seed);
+                                   {.pattern = Pattern::kConcrete,
+                                    .palette = {{0.40F, 0.39F, 0.37F}, {0.82F, 0.80F, 0.77F}},
+                                    .size = 128,
+                                    .contrast = 0.14},
+                                   seed);
   const int ceramic = AddPlainMaterial(world, "ceramic", {0.42F, 0.22F, 0.14F});
   const int aluminium = AddPlainMaterial(world, "aluminium", {0.62F, 0.63F, 0.64F});
   const PylonConfig pylon{.height = config.tower_height};
@@ -77,7 +83,8 @@ std::vector<Wire> AddLine(World& world, const PowerlineConfig& config, const Lan
       // The earth wire is strung tighter: it hangs as far as 0.8 of the conductors' sag.
       const double a = config.tension / config.weight * (earth ? 1.25 : 1.0);
       wires.push_back({(earth ? "earth_wire/" : "conductor" + std::to_string(phase) + "/") + std::to_string(span),
-                       Catenary(ends[span][phase], ends[span + 1][phase], a), 0.5 * (earth ? kEarthWire : config.diameter)});
+                       Catenary(ends[span][phase], ends[span + 1][phase], a),
+                       0.5 * (earth ? kEarthWire : config.diameter)});
     }
   }
   for (const Wire& wire : wires) AddWire(world, aluminium, wire);
@@ -127,15 +134,17 @@ void AddLights(World& world, const PowerlineConfig& config, const Land& land, co
   // The crew's floodlight on its mast beside the pad, and red obstruction lights on the peaks.
   const int metal = AddPlainMaterial(world, "mast", {0.30F, 0.31F, 0.32F});
   const Vec2 place = start + Vec2(-3.0, -2.0);
-  AddStreetLamp(world, metal, "floodlight", {base::FromYaw(0.5 * kPi), land.On(place)}, {.height = 4.5, .intensity = 260.0, .range = 60.0},
-                true);
+  AddStreetLamp(world, metal, "floodlight", {base::FromYaw(0.5 * kPi), land.On(place)},
+                {.height = 4.5, .intensity = 260.0, .range = 60.0}, true);
   Lamp& flood = world.light.lamps.back();
   flood.direction = Vec3(0.3, 1.0, 0.45).normalized();
   flood.cone = 0.9;
   flood.colour = {1.0, 0.95, 0.88};
   for (int tower = 0; tower < kTowers; ++tower) {
-    const Vec3 top = land.On({config.span * (tower - 0.5 * (kTowers - 1)), 0.0}) + Vec3(0, 0, config.tower_height + 0.25);
-    AddObject(world, "tower" + std::to_string(tower) + "/beacon", geometry::Sphere{0.12}, {base::Quat::Identity(), top - Vec3(0, 0, 0.08)},
+    const Vec3 top =
+        land.On({config.span * (tower - 0.5 * (kTowers - 1)), 0.0}) + Vec3(0, 0, config.tower_height + 0.25);
+    AddObject(world, "tower" + std::to_string(tower) + "/beacon", geometry::Sphere{0.12},
+              {base::Quat::Identity(), top - Vec3(0, 0, 0.08)},
               AddPlainMaterial(world, "beacon" + std::to_string(tower), {1.0F, 0.15F, 0.10F}), 1.0);
     Lamp red;
     red.position = top + Vec3(0, 0, 0.3);
@@ -151,12 +160,15 @@ void AddLights(World& world, const PowerlineConfig& config, const Land& land, co
 void Describe(base::Description& d, PowerlineConfig& c) {
   d.Field("span", c.span, {.unit = "m", .meaning = "between towers", .min = 30.0, .max = 70.0});
   d.Field("tower_height", c.tower_height, {.unit = "m", .meaning = "of a tower's peak", .min = 14.0, .max = 40.0});
-  d.Field("tension", c.tension, {.unit = "N", .meaning = "of a conductor, its horizontal part", .min = 1e3, .max = 60e3});
+  d.Field("tension", c.tension,
+          {.unit = "N", .meaning = "of a conductor, its horizontal part", .min = 1e3, .max = 60e3});
   d.Field("weight", c.weight, {.unit = "N/m", .meaning = "of a conductor", .min = 1.0, .max = 40.0});
   d.Check("tension", [&c] {  // L²/8a, the parabola's sag
     return c.span * c.span * c.weight / (8.0 * c.tension) < 0.2 * c.tower_height
                ? std::string()
-               : std::string("is so small that the line sags by a fifth of a tower's height; make it larger, or span or weight less");
+               : std::string(
+                     "is so small that the line sags by a fifth of a tower's height; make it larger, or span or weight "
+                     "less");
   });
   d.Field("diameter", c.diameter, {.unit = "m", .meaning = "of a conductor", .min = 0.005, .max = 0.06});
   for (const auto& [name, count, what] : {std::tuple{"kites", &c.kites, "kites that hang on the line"},

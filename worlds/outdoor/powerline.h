@@ -13,16 +13,16 @@ namespace alula::worlds {
 struct PowerlineConfig {
   static constexpr std::string_view kType = "powerline";
 
-  double span = 66.0;             // m between towers
-  double tower_height = 22.0;     // m
-  double tension = 6.0e3;         // N, horizontal, of a conductor
-  double weight = 9.04;           // N/m, of a conductor: LGJ-240/30 (aluminium on steel) has 0.922 kg/m
-  double diameter = 0.0216;       // m, of the same
-  int kites = 1;                  // that hang on the line
+  double span = 66.0;          // m between towers
+  double tower_height = 22.0;  // m
+  double tension = 6.0e3;      // N, horizontal, of a conductor
+  double weight = 9.04;        // N/m, of a conductor: LGJ-240/30 (aluminium on steel) has 0.922 kg/m
+  double diameter = 0.0216;    // m, of the same
+  int kites = 1;               // that hang on the line
   int balloons = 1;
   int bags = 1;
   int branches = 1;
-  int trees = 30;                 // beside the corridor
+  int trees = 30;  // beside the corridor
   WeatherConfig weather;
 };
 void Describe(base::Description& d, PowerlineConfig& c);

@@ -40,35 +40,49 @@ std::optional<Vec2> Plot::Place(double radius, RandomStream& random, const std::
 
 Surface AddLitterGround(World& world, std::uint64_t seed) {
   return AddSurface(world, "litter",
-                    {.pattern = Pattern::kLitter, .palette = {{0.20F, 0.15F, 0.10F}, {0.80F, 0.66F, 0.48F}}, .size = 512,
-                     .contrast = 0.18, .infrared = 1.3F},
+                    {.pattern = Pattern::kLitter,
+                     .palette = {{0.20F, 0.15F, 0.10F}, {0.80F, 0.66F, 0.48F}},
+                     .size = 512,
+                     .contrast = 0.18,
+                     .infrared = 1.3F},
                     seed);
 }
 
 Surface AddGrassGround(World& world, std::uint64_t seed, double contrast) {
   return AddSurface(world, "grass",
-                    {.pattern = Pattern::kGrass, .palette = {{0.18F, 0.24F, 0.09F}, {0.72F, 0.77F, 0.42F}}, .size = 512,
-                     .contrast = contrast, .infrared = 1.8F},
+                    {.pattern = Pattern::kGrass,
+                     .palette = {{0.18F, 0.24F, 0.09F}, {0.72F, 0.77F, 0.42F}},
+                     .size = 512,
+                     .contrast = contrast,
+                     .infrared = 1.8F},
                     seed);
 }
 
 Surface AddMeadow(World& world, std::uint64_t seed) {
   return AddSurface(world, "meadow",
-                    {.pattern = Pattern::kGrass, .palette = {{0.18F, 0.24F, 0.09F}, {0.72F, 0.77F, 0.42F}}, .period = 8.0, .size = 256,
-                     .variants = 4, .contrast = 0.07, .infrared = 1.8F},
+                    {.pattern = Pattern::kGrass,
+                     .palette = {{0.18F, 0.24F, 0.09F}, {0.72F, 0.77F, 0.42F}},
+                     .period = 8.0,
+                     .size = 256,
+                     .variants = 4,
+                     .contrast = 0.07,
+                     .infrared = 1.8F},
                     seed);
 }
 
 Surface AddPavedGround(World& world, std::uint64_t seed) {
   return AddSurface(world, "paving",
-                    {.pattern = Pattern::kTiles, .palette = {{0.30F, 0.29F, 0.27F}, {0.78F, 0.75F, 0.70F}}, .size = 512,
+                    {.pattern = Pattern::kTiles,
+                     .palette = {{0.30F, 0.29F, 0.27F}, {0.78F, 0.75F, 0.70F}},
+                     .size = 512,
                      .contrast = 0.13},
                     seed);
 }
 
 int AddPadMaterial(World& world, std::uint64_t seed) {
   return AddMaterial(world, "pad",
-                     {.pattern = Pattern::kPad, .palette = {{0.06F, 0.08F, 0.10F}, {0.95F, 0.93F, 0.85F}}, .size = 256}, seed);
+                     {.pattern = Pattern::kPad, .palette = {{0.06F, 0.08F, 0.10F}, {0.95F, 0.93F, 0.85F}}, .size = 256},
+                     seed);
 }
 
 Wood MakeWood(World& world, double height_min, double height_max, int broadleaf, int conifer, std::uint64_t seed) {
@@ -101,12 +115,15 @@ void AddRubble(World& world, const Land& land, Plot& plot, const RubbleConfig& c
   RandomStream random(seed, "world/rubble");
   if (config.boulders > 0) {
     const int stone = AddMaterial(world, "stone",
-                                  {.pattern = Pattern::kSoil, .palette = {{0.24F, 0.23F, 0.21F}, {0.66F, 0.64F, 0.60F}}, .size = 256,
+                                  {.pattern = Pattern::kSoil,
+                                   .palette = {{0.24F, 0.23F, 0.21F}, {0.66F, 0.64F, 0.60F}},
+                                   .size = 256,
                                    .contrast = 0.17},
                                   seed);
     for (int i = 0; i < config.boulders; ++i) {
       const double size = random.Uniform(config.size_min, config.size_max);
-      const auto mesh = MakeBoulder({size, size * random.Uniform(0.7, 1.0), size * random.Uniform(0.55, 0.8)}, 0.06, 1.6, random);
+      const auto mesh =
+          MakeBoulder({size, size * random.Uniform(0.7, 1.0), size * random.Uniform(0.55, 0.8)}, 0.06, 1.6, random);
       const auto p = plot.Place(1.3 * size, random, allowed);
       if (!p) continue;
       AddObject(world, "boulder" + std::to_string(i), geometry::MeshShape{mesh},
@@ -124,7 +141,8 @@ void AddRubble(World& world, const Land& land, Plot& plot, const RubbleConfig& c
     const Vec3 b = land.On(*p + half * along);
     const double middle = std::max(0.5 * (a.z() + b.z()), land.Height(*p) - 0.3 * radius);
     AddObject(world, "log" + std::to_string(i), geometry::Cylinder{radius, half},
-              {base::Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(b - a)), {p->x(), p->y(), middle + 0.7 * radius}}, bark, 0.7);
+              {base::Quat::FromTwoVectors(Vec3::UnitZ(), Vec3(b - a)), {p->x(), p->y(), middle + 0.7 * radius}}, bark,
+              0.7);
   }
   for (int i = 0; i < config.stumps; ++i) {
     const double radius = random.Uniform(0.12, 0.25);
@@ -163,14 +181,16 @@ void AddTufts(World& world, const Land& land, int count, double height, std::uin
   constexpr double kSquare = 12.0;
   RandomStream random(seed, "world/tufts");
   const int material = AddFoliageMaterial(
-      world, "tuft", {.kind = Foliage::kTuft, .leaves = {{0.16F, 0.21F, 0.08F}, {0.70F, 0.76F, 0.42F}}, .size = 128}, seed);
+      world, "tuft", {.kind = Foliage::kTuft, .leaves = {{0.16F, 0.21F, 0.08F}, {0.70F, 0.76F, 0.42F}}, .size = 128},
+      seed);
   std::map<std::array<int, 2>, std::shared_ptr<geometry::Mesh>> squares;
   for (int i = 0; i < count; ++i) {
     const Vec2 p(random.Uniform(-1.0, 1.0) * land.half.x(), random.Uniform(-1.0, 1.0) * land.half.y());
     const double tall = height * random.Uniform(0.5, 1.2);
     const double yaw = random.Uniform(0.0, kPi);
     if (allowed && !allowed(p)) continue;
-    auto& mesh = squares[{static_cast<int>(std::floor(p.x() / kSquare)), static_cast<int>(std::floor(p.y() / kSquare))}];
+    auto& mesh =
+        squares[{static_cast<int>(std::floor(p.x() / kSquare)), static_cast<int>(std::floor(p.y() / kSquare))}];
     if (mesh == nullptr) mesh = std::make_shared<geometry::Mesh>();
     AddCrossedCards(*mesh, land.On(p) - Vec3(0, 0, 0.03), 1.1 * tall, tall, yaw);
   }
