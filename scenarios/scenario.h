@@ -29,6 +29,10 @@
 #include "vehicles/prescribed.h"
 #include "vehicles/quadrotor.h"
 #include "worlds/courtyard.h"
+#include "worlds/indoor/machine_hall.h"
+#include "worlds/indoor/office.h"
+#include "worlds/indoor/office_floor.h"
+#include "worlds/indoor/vicon_room.h"
 #include "worlds/maps/planning_map.h"
 #include "worlds/open_ground.h"
 #include "worlds/outdoor/forest.h"
@@ -47,10 +51,12 @@ inline void Describe(base::Description&, None&) {}
 // What a scenario can be made of. These lists, the words for them in scenario.cpp and the makers in factories.cpp are
 // the one place that names concrete worlds, vehicles, autopilots, stacks and criteria. A world's config says its own
 // word (kType), and worlds::MakeWorld makes it: its entry here is all that it needs.
-using WorldConfig = std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig, worlds::PlanningMapConfig,
-                                 worlds::SceneConfig, worlds::ForestConfig, worlds::OpenFieldConfig,
-                                 worlds::LandingForestConfig, worlds::LandingSlopeConfig, worlds::LandingFieldConfig,
-                                 worlds::LandingSquareConfig, worlds::LandingFlowerbedsConfig, worlds::PowerlineConfig>;
+using WorldConfig =
+    std::variant<worlds::OpenGroundConfig, worlds::CourtyardConfig, worlds::PlanningMapConfig, worlds::SceneConfig,
+                 worlds::ForestConfig, worlds::OpenFieldConfig, worlds::LandingForestConfig, worlds::LandingSlopeConfig,
+                 worlds::LandingFieldConfig, worlds::LandingSquareConfig, worlds::LandingFlowerbedsConfig,
+                 worlds::PowerlineConfig, worlds::MachineHallConfig, worlds::ViconRoomConfig, worlds::OfficeConfig,
+                 worlds::OfficeFloorConfig>;
 using VehicleConfig = std::variant<vehicles::QuadrotorConfig, vehicles::PrescribedConfig>;
 using AutopilotConfig = std::variant<None, vehicles::MulticopterAutopilotConfig>;
 using StackConfig =

@@ -246,8 +246,10 @@ Canvas Paint(Pattern pattern, int size, double contrast, RandomStream& random) {
   return canvas;
 }
 
-/// Tones as colours; these vary from reddish to bluish, whatever the tone.
-std::shared_ptr<geometry::Texture> Coloured(const Canvas& canvas, const Palette& palette, RandomStream& random) {
+/// Tones as colours; these vary from reddish to bluish, whatever the tone, the less the fainter the pattern is.
+std::shared_ptr<geometry::Texture> Coloured(const Canvas& canvas, const Palette& palette, double contrast,
+                                            RandomStream& random) {
+  const auto warm_share = static_cast<float>(0.05 * std::min(1.0, contrast / kFullContrast));
   const int size = canvas.size;
   const Canvas warmth = PinkNoise(size / 4, random);
   auto texture = std::make_shared<geometry::Texture>();
@@ -256,7 +258,7 @@ std::shared_ptr<geometry::Texture> Coloured(const Canvas& canvas, const Palette&
   for (int c = 0; c < 3; ++c) {
     const float dark = 255.0F * palette.dark[c];
     const float range = 255.0F * palette.light[c] - dark;
-    const float shift = 0.05F * static_cast<float>(1 - c);
+    const float shift = warm_share * static_cast<float>(1 - c);
     for (int y = 0; y < size; ++y) {
       const float* tones = canvas.tone.data() + canvas.Index(0, y);
       const float* warm = warmth.tone.data() + warmth.Index(0, y / 4);
@@ -294,7 +296,7 @@ std::shared_ptr<const geometry::Texture> MakeTexture(Pattern pattern, const Pale
                                                      std::uint64_t seed, std::string_view name, double contrast) {
   RandomStream random(seed, "world/texture/" + std::string(name));
   const Canvas canvas = Paint(pattern, size, contrast, random);
-  return Coloured(canvas, palette, random);
+  return Coloured(canvas, palette, contrast, random);
 }
 
 std::vector<std::shared_ptr<const geometry::Texture>> MakeTextureVariants(Pattern pattern, const Palette& palette,
@@ -309,7 +311,7 @@ std::vector<std::shared_ptr<const geometry::Texture>> MakeTextureVariants(Patter
     Canvas canvas = rim;
     FillBetweenRims(canvas, Paint(pattern, size, contrast, random), random);
     RandomStream tint(seed, "world/texture/" + std::string(name) + "/tint");  // one for all: it crosses the rims
-    variants.push_back(Coloured(canvas, palette, tint));
+    variants.push_back(Coloured(canvas, palette, contrast, tint));
   }
   return variants;
 }

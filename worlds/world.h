@@ -24,6 +24,8 @@ struct Object {
   double texture_scale = 1.0;  // metres per texture period
   bool collides = true;        // Bullet sees it (the renderer always does)
   SemanticClass semantic = SemanticClass::kObstacle;
+  bool casts_shadow =
+      true;  // false where the one broad light of `Light::sun` stands for lamps this side of it: ceilings
 };
 
 /// A square gate's opening: x along the direction of passage, z up, origin mid-opening; where it swings, as it rests.

@@ -117,6 +117,11 @@ void AddExtras(base::RollingHash& hash, const World& world) {
     hash.Add(std::string_view("actor"));
     Add(hash, actor);
   }
+  for (const Object& object : world.objects) {
+    if (object.casts_shadow) continue;
+    hash.Add(std::string_view("no shadow"));
+    hash.Add(std::string_view(object.name));
+  }
   for (const geometry::Material& material : world.materials) {
     if (geometry::HasHoles(material)) hash.AddBytes(material.texture->alpha);
     if (material.infrared == 1.0F) continue;

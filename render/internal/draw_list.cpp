@@ -36,10 +36,10 @@ std::vector<DrawRun> NearestFirst(std::span<const Batch> batches, const Frustum*
               [&](const Batch& batch) -> const Level& { return LevelFor(batch, at, focal); });
 }
 
-std::vector<DrawRun> AllRuns(std::span<const Batch> batches, bool ignore_materials) {
+std::vector<DrawRun> CasterRuns(std::span<const Batch> batches, bool ignore_materials) {
   std::vector<std::uint32_t> order;
   for (std::uint32_t i = 0; i < batches.size(); ++i) {
-    if (batches[i].levels[0].index_count > 0) order.push_back(i);
+    if (batches[i].casts_shadow && batches[i].levels[0].index_count > 0) order.push_back(i);
   }
   return Runs(batches, order, ignore_materials, [](const Batch& batch) -> const Level& { return batch.levels[0]; });
 }

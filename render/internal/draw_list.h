@@ -22,8 +22,8 @@ struct DrawRun {
 std::vector<DrawRun> NearestFirst(std::span<const Batch> batches, const Frustum* frustum, const base::Vec3& eye,
                                   double focal, bool ignore_materials);
 
-/// All batches in their own order, at their full level.
-std::vector<DrawRun> AllRuns(std::span<const Batch> batches, bool ignore_materials);
+/// All batches that cast shadows in their own order, at their full level.
+std::vector<DrawRun> CasterRuns(std::span<const Batch> batches, bool ignore_materials);
 
 /// Those of the runs that have holes, or have none.
 std::vector<DrawRun> Those(std::vector<DrawRun> runs, bool holes);

@@ -101,7 +101,7 @@ void GpuScene::DrawCasters(const ShadowRegion& region, const Batch* mover, const
   for (const bool holes : {false, true}) {
     if (holes && !has_holes_) break;
     const std::vector<DrawRun> runs = Those(
-        AllRuns(mover != nullptr ? std::span(mover, 1) : std::span<const Batch>(geometry_->statics), true), holes);
+        CasterRuns(mover != nullptr ? std::span(mover, 1) : std::span<const Batch>(geometry_->statics), true), holes);
     const GlProgram& program = holes ? *caster_with_holes_ : *caster_;
     program.Use();
     program.Set("clip_from_world", geometry_->shadow.clip_from_world);

@@ -136,6 +136,7 @@ ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const PackedTextur
   VisibilityBuffer buffer;
   const Target target = buffer.Clear(kShadowSide, kShadowSide, 0.0F, false);
   for (const internal::Batch& batch : scene.statics) {
+    if (!batch.casts_shadow) continue;
     DrawBatch(scene, batch, scene.shadow.texture_from_world, alpha, kernels, base::Vec2::Zero(), target);
   }
   ShadowMap map;

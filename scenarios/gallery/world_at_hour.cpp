@@ -13,6 +13,10 @@ std::shared_ptr<const worlds::World> WorldAtHour(WorldConfig config, worlds::Wea
           c.weather.hour = hour;
           return true;
         }
+        if constexpr (requires { c.light.hour = hour; }) {
+          c.light.hour = hour;
+          return true;
+        }
         return false;
       },
       config);
