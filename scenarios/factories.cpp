@@ -24,9 +24,10 @@ std::shared_ptr<const worlds::World> MakeWorld(const WorldConfig& config, std::u
   return world;
 }
 
-std::unique_ptr<vehicles::VehicleModel> MakeVehicle(const VehicleConfig& config, const std::string& name) {
+std::unique_ptr<vehicles::VehicleModel> MakeVehicle(const VehicleConfig& config, const std::string& name,
+                                                    std::uint64_t seed) {
   return std::visit(Overloaded{
-                        [&](const vehicles::QuadrotorConfig& c) { return vehicles::MakeQuadrotor(c, name); },
+                        [&](const vehicles::QuadrotorConfig& c) { return vehicles::MakeQuadrotor(c, name, seed); },
                         [&](const vehicles::PrescribedConfig& c) { return vehicles::MakePrescribed(c, name); },
                     },
                     config);

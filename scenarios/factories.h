@@ -19,7 +19,8 @@ using StackMaker = std::function<std::unique_ptr<stack::NavigationStack>(
     const stack::Calibration& calibration, const stack::Mission& mission, std::uint64_t seed, int workers)>;
 
 std::shared_ptr<const worlds::World> MakeWorld(const WorldConfig& config, std::uint64_t seed);
-std::unique_ptr<vehicles::VehicleModel> MakeVehicle(const VehicleConfig& config, const std::string& name);
+std::unique_ptr<vehicles::VehicleModel> MakeVehicle(const VehicleConfig& config, const std::string& name,
+                                                    std::uint64_t seed = 1);
 /// Null for None. Throws base::InputError where the autopilot does not fit the vehicle.
 std::unique_ptr<vehicles::Autopilot> MakeAutopilot(const AutopilotConfig& config, const VehicleConfig& vehicle);
 /// Empty for None.

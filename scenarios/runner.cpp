@@ -71,7 +71,7 @@ sim::SimulationParts MakeParts(const Scenario& scenario, const RunOptions& optio
   parts.autopilot_sensors = config.autopilot_sensors;
   parts.faults = config.faults;
   parts.world = MakeWorld(config.world, scenario.seed);
-  parts.vehicle = MakeVehicle(config.vehicle, kVehicle);
+  parts.vehicle = MakeVehicle(config.vehicle, kVehicle, scenario.seed);
   parts.autopilot = MakeAutopilot(config.autopilot, config.vehicle);
   parts.vehicle_id = kVehicle;
   parts.seed = scenario.seed;

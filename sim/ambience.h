@@ -12,6 +12,8 @@ namespace alula::sim {
 /// air, far from everything.
 struct Ambience {
   std::span<const vehicles::RotorState> rotors{};  // lives as long as the vehicle
+  base::Vec3 v_air_B = base::Vec3::Zero();         // velocity of the body through the air, body axes, m/s
+  double rotor_height = std::numeric_limits<double>::infinity();  // of the rotors above what lies below, mean, m
 };
 
 }  // namespace alula::sim

@@ -4,7 +4,10 @@
 #include <chrono>
 #include <cmath>
 #include <exception>
+#include <limits>
 #include <new>
+#include <numeric>
+#include <span>
 #include <utility>
 
 #include "base/error.h"
@@ -26,6 +29,12 @@ vehicles::BodyState StartState(const SimulationParts& parts) {
   const vehicles::VehicleBody& body = parts.vehicle->body();
   if (body.prescribed) return parts.vehicle->Prescribed({0});
   return {StartPose(*parts.world, body.standing_height), base::Vec3::Zero(), base::Vec3::Zero()};
+}
+
+/// Infinite where one of them has nothing below, or none is known.
+double MeanHeight(std::span<const double> heights) {
+  if (heights.empty()) return std::numeric_limits<double>::infinity();
+  return std::accumulate(heights.begin(), heights.end(), 0.0) / static_cast<double>(heights.size());
 }
 
 /// Runs what calls the stack; what that throws is a fault of the stack.
@@ -158,7 +167,8 @@ void Simulation::StepAutopilot() {
   sensors.imu = autopilot_imu_.Sample();
   const base::Rate rate = parts_.autopilot_sensors.barometer.rate;
   if (rate.SampleTime(autopilot_barometer_n_) <= time_) {
-    sensors.barometer = autopilot_barometer_.Sample(truth_.At(rate.SampleTime(autopilot_barometer_n_)).X_WB.p.z());
+    sensors.barometer =
+        autopilot_barometer_.Sample(truth_.At(rate.SampleTime(autopilot_barometer_n_)).X_WB.p.z(), truth_.ambience);
     ++autopilot_barometer_n_;
   }
   sensors.battery_voltage = parts_.vehicle->Battery().voltage;
@@ -169,10 +179,24 @@ void Simulation::StepAutopilot() {
   }
 }
 
+void Simulation::LookBelow(const vehicles::BodyState& state) {
+  const double reach = std::max({parts_.vehicle->GroundReach(), GroundReach(parts_.autopilot_sensors.barometer),
+                                 parts_.sensors.barometer ? GroundReach(*parts_.sensors.barometer) : 0.0});
+  if (reach <= 0.0) return;
+  rotor_heights_.clear();
+  for (const vehicles::RotorState& rotor : parts_.vehicle->Rotors()) {
+    const base::Vec3 hub_W = state.X_WB * rotor.p_BR;
+    const auto hit = physics_->CastRay(hub_W, hub_W - base::Vec3(0.0, 0.0, reach));
+    rotor_heights_.push_back(hit ? hit->distance : std::numeric_limits<double>::infinity());
+  }
+  parts_.vehicle->Above(rotor_heights_);
+}
+
 void Simulation::StepBody() {
   const base::Duration dt = parts_.config.step;
   const vehicles::BodyState before = physics_->state();
   wind_W_ = wind_.At(before.X_WB.p, dt, before.v_WB);
+  LookBelow(before);
   const vehicles::Wrench wrench = parts_.vehicle->Step(before, autopilot_output_.actuators, wind_W_, dt);
   Lap(kVehicle);
   MoveActors(before, wrench);
@@ -184,9 +208,12 @@ void Simulation::StepBody() {
   Lap(kPhysics);
   const vehicles::BodyState& after = physics_->state();
   if (!IsFinite(after)) throw base::FaultError("numerical", "the vehicle's true state is not finite");
-  sensors_.Integrate(time_ + dt, before, after, {.rotors = parts_.vehicle->Rotors()});
+  const Ambience ambience{.rotors = parts_.vehicle->Rotors(),
+                          .v_air_B = after.X_WB.q.conjugate() * (after.v_WB - wind_W_),
+                          .rotor_height = MeanHeight(rotor_heights_)};
+  sensors_.Integrate(time_ + dt, before, after, ambience);
   autopilot_imu_.Integrate(before, after, parts_.vehicle->Rotors());
-  truth_ = {time_, time_ + dt, before, after};
+  truth_ = {time_, time_ + dt, before, after, ambience};
   time_ += dt;
   Lap(kSensors);
 }

@@ -90,6 +90,8 @@ class Simulation {
   void StepStack();
   void StepLink();
   void StepAutopilot();
+  /// How high the rotors are, where something asks for it.
+  void LookBelow(const vehicles::BodyState& state);
   void StepBody();
   void MoveActors(const vehicles::BodyState& vehicle, const vehicles::Wrench& wrench);
   std::optional<std::string> StepObservers();
@@ -111,6 +113,7 @@ class Simulation {
   base::Time time_;
   TruthWindow truth_;
   base::Vec3 wind_W_ = base::Vec3::Zero();
+  std::vector<double> rotor_heights_;  // above what lies below, m; empty: not asked for
   std::vector<stack::Measurement> measurements_;
   stack::StackOutput output_;
   std::deque<InFlight> link_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/time.h"
+#include "sim/ambience.h"
 #include "vehicles/vehicle.h"
 
 namespace alula::sim {
@@ -9,6 +10,7 @@ namespace alula::sim {
 struct TruthWindow {
   base::Time begin, end;
   vehicles::BodyState at_begin, at_end;
+  Ambience ambience{};  // at the end
 
   /// Position by cubic Hermite, attitude along the geodesic, rates linearly; `t` is clamped to the window.
   vehicles::BodyState At(base::Time t) const;

@@ -1,6 +1,8 @@
 #include "vehicles/quadrotor.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
@@ -13,11 +15,17 @@ using base::Vec3;
 
 class Quadrotor final : public VehicleModel {
  public:
-  explicit Quadrotor(const QuadrotorConfig& config)
+  Quadrotor(const QuadrotorConfig& config, const std::string& name, std::uint64_t seed)
       : config_(config),
         layout_(LayOutQuadrotor(config)),
-        rotors_{MakeRotor(0), MakeRotor(1), MakeRotor(2), MakeRotor(3)},
-        battery_(config.battery) {}
+        rotors_{MakeRotor(0, name, seed), MakeRotor(1, name, seed), MakeRotor(2, name, seed), MakeRotor(3, name, seed)},
+        battery_(config.battery) {
+    heights_.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < kRotors; ++i) {
+      turning_[i] = {
+          .spin = layout_.rotors[i].spin, .radius = 0.5 * config.rotor.diameter, .p_BR = layout_.rotors[i].p_BR};
+    }
+  }
 
   const VehicleBody& body() const override { return layout_.body; }
 
@@ -32,17 +40,25 @@ class Quadrotor final : public VehicleModel {
     for (std::size_t i = 0; i < kRotors; ++i) {
       const Vec3& p_BR = layout_.rotors[i].p_BR;
       const double u = command.motors.empty() ? 0.0 : command.motors[i];
-      const RotorLoad load = rotors_[i].Step(u, battery_.voltage(), v_air_B + state.w_B.cross(p_BR), state.w_B, dt);
+      const RotorLoad load =
+          rotors_[i].Step(u, battery_.voltage(), v_air_B + state.w_B.cross(p_BR), state.w_B, dt, heights_[i]);
       force_B += load.force_B;
       torque_B += p_BR.cross(load.force_B) + load.torque_B;
       power += load.shaft_power;
-      turning_[i] = {rotors_[i].speed(), layout_.rotors[i].spin};
+      turning_[i].speed = rotors_[i].speed();
+      turning_[i].thrust = load.force_B.z();
     }
     battery_.Step(power, dt);
     return {state.X_WB.q * force_B, state.X_WB.q * torque_B};
   }
 
   std::span<const RotorState> Rotors() const override { return turning_; }
+  double GroundReach() const override {
+    return config_.rotor.ground_effect ? kGroundReach * 0.5 * config_.rotor.diameter : 0.0;
+  }
+  void Above(std::span<const double> heights) override {
+    std::copy_n(heights.begin(), std::min(heights.size(), heights_.size()), heights_.begin());
+  }
   int Motors() const override { return kRotors; }
   void Impair(const Impairment& broken) override {
     for (std::size_t i = 0; i < kRotors; ++i) {
@@ -65,12 +81,18 @@ class Quadrotor final : public VehicleModel {
   }
 
  private:
-  Rotor MakeRotor(std::size_t i) const { return Rotor(config_.rotor, config_.air_density, layout_.rotors[i].spin); }
+  Rotor MakeRotor(std::size_t i, const std::string& name, std::uint64_t seed) const {
+    const double opposite = config_.frame.wheelbase;
+    return Rotor(config_.rotor, config_.air_density, layout_.rotors[i].spin,
+                 {0.5 * config_.rotor.diameter, opposite / std::sqrt(2.0), opposite}, seed,
+                 name + "/rotor" + std::to_string(i));
+  }
 
   QuadrotorConfig config_;
   QuadrotorLayout layout_;
   std::array<Rotor, kRotors> rotors_;
   std::array<RotorState, kRotors> turning_{};
+  std::array<double, kRotors> heights_{};  // above what lies below, m
   vehicles::Battery battery_;
 };
 
@@ -115,7 +137,7 @@ void Describe(base::Description& d, QuadrotorConfig& c) {
   d.Field("aerodynamics", c.aerodynamics, {.meaning = "drag of the airframe"});
 }
 
-std::unique_ptr<VehicleModel> MakeQuadrotor(const QuadrotorConfig& config, std::string name) {
+std::unique_ptr<VehicleModel> MakeQuadrotor(const QuadrotorConfig& config, std::string name, std::uint64_t seed) {
   const double best = kRotors * ThrustConstant(config.rotor, config.air_density) * config.rotor.maximum_speed *
                       config.rotor.maximum_speed;
   if (best < 1.2 * config.mass * base::kGravity) {
@@ -125,7 +147,7 @@ std::unique_ptr<VehicleModel> MakeQuadrotor(const QuadrotorConfig& config, std::
   if (config.rotor.diameter >= config.frame.wheelbase / std::sqrt(2.0)) {
     throw base::InputError(name + ": rotor.diameter: propeller discs overlap; enlarge frame.wheelbase");
   }
-  return std::make_unique<Quadrotor>(config);
+  return std::make_unique<Quadrotor>(config, name, seed);
 }
 
 }  // namespace alula::vehicles

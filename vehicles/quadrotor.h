@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -57,7 +58,8 @@ struct QuadrotorLayout {
 QuadrotorLayout LayOutQuadrotor(const QuadrotorConfig& config);
 
 /// `name` ("vehicle0") prefixes messages. Throws base::InputError where the config makes no flyable vehicle
-/// (thrust-to-weight ratio below 1.2, discs that overlap).
-std::unique_ptr<VehicleModel> MakeQuadrotor(const QuadrotorConfig& config, std::string name);
+/// (thrust-to-weight ratio below 1.2, discs that overlap). `seed`: of the run, for what fluctuates ("<name>/rotor0",
+/// …).
+std::unique_ptr<VehicleModel> MakeQuadrotor(const QuadrotorConfig& config, std::string name, std::uint64_t seed = 1);
 
 }  // namespace alula::vehicles

@@ -1,10 +1,17 @@
 #pragma once
 
+#include <cstdint>
 #include <deque>
+#include <limits>
+#include <optional>
+#include <string_view>
 
 #include "base/describe.h"
 #include "base/frames.h"
+#include "base/random.h"
 #include "base/time.h"
+#include "vehicles/ground_effect.h"
+#include "vehicles/vortex_ring.h"
 
 namespace alula::vehicles {
 
@@ -21,6 +28,8 @@ struct RotorConfig {
   double nominal_voltage = 14.8;       // V
   double time_constant = 0.025;        // s, motor lag
   base::Duration esc_delay = base::Milliseconds(2);
+  std::optional<GroundEffectConfig> ground_effect;  // none: the ground is far
+  std::optional<VortexRingConfig> vortex_ring;      // none: thrust grows with descent
 };
 void Describe(base::Description& d, RotorConfig& c);
 
@@ -50,15 +59,20 @@ struct RotorLoad {
 ///   reaction  −spin (Q + J_r ω') z − w_B × (spin J_r ω z)                 the body carries the rotor's momentum
 ///
 /// v is the velocity of the hub through the air. Linear thrust over J: McCormick 1995, ch. 6; H-force linear in ω v:
-/// Martin and Salaün 2010, eq. 9; Mahony, Kumar and Corke 2012, eq. 9. Vortex ring and ground effect are not modelled:
-/// thrust gained in descent is capped at 1.4 times the static one.
+/// Martin and Salaün 2010, eq. 9; Mahony, Kumar and Corke 2012, eq. 9. Thrust gained in descent is capped at 1.4 times
+/// the static one. Where they are switched on, ground effect multiplies T by ground_effect.h's ratio, and a vortex ring
+/// of strength s (vortex_ring.h) turns it into (1 − s) T + s k_t ω² (1 − loss + n), n a first-order Gauss–Markov
+/// process: in the ring there is no gain by inflow.
 class Rotor {
  public:
-  Rotor(const RotorConfig& config, double air_density, double spin);
+  /// `spacing` of its neighbours, for ground effect; fluctuation of a vortex ring from the seed's stream `name`.
+  Rotor(const RotorConfig& config, double air_density, double spin, const RotorSpacing& spacing = {},
+        std::uint64_t seed = 1, std::string_view name = "rotor");
 
   /// Advances by dt under ESC command u in [0, 1] and terminal voltage (V). `v_air_B`: velocity of the hub relative to
-  /// the air, `w_B`: angular velocity, body axes.
-  RotorLoad Step(double command, double voltage, const base::Vec3& v_air_B, const base::Vec3& w_B, base::Duration dt);
+  /// the air, `w_B`: angular velocity, body axes. `height`: of the hub above what lies below, m.
+  RotorLoad Step(double command, double voltage, const base::Vec3& v_air_B, const base::Vec3& w_B, base::Duration dt,
+                 double height = std::numeric_limits<double>::infinity());
 
   double speed() const { return speed_; }  // rad/s
   /// A failing motor: ω_max becomes √share ω_max, so that share of static thrust and torque is left at every command.
@@ -70,7 +84,14 @@ class Rotor {
     double command;
   };
 
+  /// What ground and vortex ring make of a thrust (N).
+  double Disturbed(double thrust, const base::Vec3& v_air_B, double height, base::Duration dt);
+
   RotorConfig config_;
+  RotorSpacing spacing_;
+  double disc_;  // 2 ρ A of v_h = √(T / 2ρA), kg/m
+  base::RandomStream stream_;
+  double fluctuation_ = 0.0;  // n / sigma
   double thrust_constant_;
   double torque_constant_;
   double drag_constant_;  // C_H ρ A R

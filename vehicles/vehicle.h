@@ -66,8 +66,11 @@ struct Impairment {
 
 /// What one rotor does at the moment, for what feels it besides the body.
 struct RotorState {
-  double speed = 0.0;  // rad/s relative to the body
-  double spin = 1.0;   // +1 counter-clockwise seen from above
+  double speed = 0.0;                    // rad/s relative to the body
+  double spin = 1.0;                     // +1 counter-clockwise seen from above
+  double thrust = 0.0;                   // N
+  double radius = 0.0;                   // m
+  base::Vec3 p_BR = base::Vec3::Zero();  // hub, m
 };
 
 /// Inner quantities worth recording, each with its name and unit ("rotor0_rad_s").
@@ -87,6 +90,10 @@ class VehicleModel {
                       base::Duration dt) = 0;
   /// Rotors after the last step; none where nothing turns.
   virtual std::span<const RotorState> Rotors() const { return {}; }
+  /// Height of a rotor (m) above which what lies below does not matter; 0: it never does.
+  virtual double GroundReach() const { return 0.0; }
+  /// Height of each rotor above what lies below it, m, for the next step; infinite where nothing does.
+  virtual void Above(std::span<const double>) {}
   /// Motors that may fail.
   virtual int Motors() const { return 0; }
   /// From the next step on this is broken, and nothing else.

@@ -23,6 +23,7 @@ void Describe(base::Description& d, SensorsConfig& c) {
   d.Field("position_reference", c.position_reference, {.meaning = "external position sensor (motion capture)"});
   d.Field("battery_rate", c.battery_rate, {.unit = "Hz", .meaning = "rate of the battery's readings"});
   d.Field("battery_noise", c.battery_noise, {.unit = "V", .meaning = "standard deviation of the voltage", .min = 0});
+  d.Field("battery_gauge", c.battery_gauge, {.meaning = "what the gauge reads wrongly besides that"});
   d.Field("status_rate", c.status_rate, {.unit = "Hz", .meaning = "rate of the autopilot's reports"});
 }
 
@@ -61,7 +62,10 @@ stack::Calibration TrueCalibration(const SensorsConfig& config, const vehicles::
 SensorSuite::SensorSuite(const SensorsConfig& config, const vehicles::VehicleBody& body, base::Duration step,
                          std::uint64_t seed, const std::string& vehicle, render::CameraRenderer* renderer, int workers,
                          const worlds::Light& light, const worlds::ActorSimulation* actors)
-    : config_(config), step_(step), battery_stream_(seed, vehicle + "/battery") {
+    : config_(config),
+      step_(step),
+      battery_stream_(seed, vehicle + "/battery"),
+      current_stream_(seed, vehicle + "/battery.current") {
   battery_clock_.rate = config.battery_rate;
   status_clock_.rate = config.status_rate;
   if (config.imu) {
@@ -145,20 +149,21 @@ void SensorSuite::Measure(const TruthWindow& truth, const OwnReports& reports) {
   while (barometer_ && barometer_clock_.Due(truth.end)) {
     const auto seq = static_cast<std::uint32_t>(barometer_clock_.n);
     const base::Time now = barometer_clock_.Next();
-    Push({kBarometer, seq, now, now, barometer_->Sample(truth.At(now).X_WB.p.z())});
+    Push({kBarometer, seq, now, now, barometer_->Sample(truth.At(now).X_WB.p.z(), truth.ambience)});
   }
   while (position_reference_ && position_clock_.Due(truth.end)) {
     const auto seq = static_cast<std::uint32_t>(position_clock_.n);
     const base::Time now = position_clock_.Next();
-    Push({kPositionReference, seq, now, now + config_.position_reference->delay,
-          position_reference_->Sample(truth.At(now).X_WB)});
+    if (const auto fix = position_reference_->Sample(now, truth.At(now).X_WB)) {
+      Push({kPositionReference, seq, now, now + config_.position_reference->delay, *fix});
+    }
   }
   while (battery_clock_.Due(truth.end)) {
     const auto seq = static_cast<std::uint32_t>(battery_clock_.n);
     const base::Time now = battery_clock_.Next();
-    stack::BatterySample sample = reports.battery;
-    sample.voltage += config_.battery_noise * battery_stream_.Gaussian();
-    Push({kBattery, seq, now, now, sample});
+    Push({kBattery, seq, now, now,
+          Gauge(config_.battery_gauge, reports.battery, config_.battery_noise * battery_stream_.Gaussian(),
+                config_.battery_gauge.current_noise * current_stream_.Gaussian())});
   }
   while (status_clock_.Due(truth.end)) {
     const auto seq = static_cast<std::uint32_t>(status_clock_.n);

@@ -11,6 +11,7 @@
 #include "sim/ambience.h"
 #include "sim/faults/fault.h"
 #include "sim/sensors/barometer.h"
+#include "sim/sensors/battery_gauge.h"
 #include "sim/sensors/camera_suite.h"
 #include "sim/sensors/imu.h"
 #include "sim/sensors/position_reference.h"
@@ -31,6 +32,7 @@ struct SensorsConfig : CamerasConfig {
   std::optional<PositionReferenceConfig> position_reference;
   base::Rate battery_rate{10, 1};
   double battery_noise = 0.01;  // 1σ, V
+  BatteryGaugeConfig battery_gauge;
   base::Rate status_rate{50, 1};
 };
 void Describe(base::Description& d, SensorsConfig& c);
@@ -109,7 +111,7 @@ class SensorSuite {
   std::optional<PositionReference> position_reference_;
   std::unique_ptr<render::CameraRenderer> twin_;  // for the second thread; outlives the cameras
   std::unique_ptr<CameraSuite> cameras_;
-  base::RandomStream battery_stream_;
+  base::RandomStream battery_stream_, current_stream_;
   Clock imu_clock_, barometer_clock_, position_clock_, battery_clock_, status_clock_;
   std::uint32_t imu_seq_ = 0;
   std::vector<Pending> pending_;  // the last one arrives first
