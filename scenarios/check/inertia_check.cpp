@@ -17,16 +17,6 @@ using base::Vec3;
 
 constexpr const char* kName = "vehicle0/imu";
 
-/// The inertial unit alone.
-Rig ImuOnly(const Rig& rig) {
-  Rig bench = rig;
-  bench.sensors = {};
-  bench.sensors.imu = rig.sensors.imu;
-  bench.sensors.barometer.reset();
-  bench.sensors.battery_rate = bench.sensors.status_rate = {1, 1};
-  return bench;
-}
-
 struct Axes {
   std::vector<std::vector<double>> gyro = std::vector<std::vector<double>>(3);
   std::vector<std::vector<double>> accelerometer = std::vector<std::vector<double>>(3);
@@ -80,20 +70,10 @@ Vec3 YawPitchRoll(const Mat3& R) {
   return {std::atan2(R(1, 0), R(0, 0)), std::asin(std::clamp(-R(2, 0), -1.0, 1.0)), std::atan2(R(2, 1), R(2, 2))};
 }
 
-/// Rates of change of the motion at t by central differences over ±h.
-struct Rates {
-  Vec3 w_B, dw_B;  // rad/s, rad/s²
-  Vec3 f_B, df_B;  // specific force of the body origin and its rate, m/s², m/s³
-};
 Vec3 ForceAt(const Motion& motion, base::Time t) {
   constexpr base::Duration h = base::Microseconds(100);
   const Vec3 a_W = (motion(t + h).v_WB - motion(t - h).v_WB) / (2 * h.Seconds());
   return motion(t).X_WB.q.conjugate() * (a_W + Vec3(0, 0, base::kGravity));
-}
-Rates RatesAt(const Motion& motion, base::Time t) {
-  constexpr base::Duration h = base::Milliseconds(1);
-  return {motion(t).w_B, (motion(t + h).w_B - motion(t - h).w_B) / (2 * h.Seconds()), ForceAt(motion, t),
-          (ForceAt(motion, t + h) - ForceAt(motion, t - h)) / (2 * h.Seconds())};
 }
 
 void FitGyro(const std::vector<Rates>& rates, const std::vector<stack::ImuSample>& samples, InertialFit& fit) {
@@ -173,6 +153,21 @@ void AddSaturation(const Rig& rig, const sim::ImuConfig& claimed, Report& report
 }
 
 }  // namespace
+
+Rig ImuOnly(const Rig& rig) {
+  Rig bench = rig;
+  bench.sensors = {};
+  bench.sensors.imu = rig.sensors.imu;
+  bench.sensors.barometer.reset();
+  bench.sensors.battery_rate = bench.sensors.status_rate = {1, 1};
+  return bench;
+}
+
+Rates RatesAt(const Motion& motion, base::Time t) {
+  constexpr base::Duration h = base::Milliseconds(1);
+  return {motion(t).w_B, (motion(t + h).w_B - motion(t - h).w_B) / (2 * h.Seconds()), ForceAt(motion, t),
+          (ForceAt(motion, t + h) - ForceAt(motion, t - h)) / (2 * h.Seconds())};
+}
 
 void CheckInertiaAtRest(const Rig& rig, const sim::ImuConfig& claimed, Report& report) {
   const base::Duration duration = RestNeeded(claimed.noise);

@@ -7,6 +7,9 @@
 
 namespace alula::scenarios::check {
 
+/// The suite's inertial unit alone.
+Rig ImuOnly(const Rig& rig);
+
 /// The inertial unit standing still: Allan deviation against noise densities and bias walks, rate. As long as the walk
 /// needs to come out of the white noise, 10 minutes to 2 hours.
 void CheckInertiaAtRest(const Rig& rig, const sim::ImuConfig& claimed, Report& report);
@@ -16,6 +19,13 @@ void CheckTurnOnBias(const Rig& rig, const sim::ImuConfig& claimed, Report& repo
 
 /// The unit shaken along known sines: offset of its stamps, how it is mounted, where it sits, and where it saturates.
 void CheckInertiaInMotion(const Rig& rig, const sim::ImuConfig& claimed, Report& report);
+
+/// Rates of change of a motion at t by central differences.
+struct Rates {
+  base::Vec3 w_B, dw_B;  // rad/s, rad/s²
+  base::Vec3 f_B, df_B;  // specific force of the body origin and its rate, m/s², m/s³
+};
+Rates RatesAt(const Motion& motion, base::Time t);
 
 /// Offset of stamps (s), mount and place that inertial samples say of a known motion.
 struct InertialFit {

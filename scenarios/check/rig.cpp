@@ -20,8 +20,9 @@ Motion Rest(const base::Transform& X_WB) {
 void Record(const Rig& rig, render::CameraRenderer* renderer, const Motion& motion, base::Duration duration,
             const Sink& sink, const std::vector<Turn>& turns) {
   sim::SensorSuite suite(rig.sensors, rig.body, rig.step, rig.seed, kVehicle, renderer, 1);
-  const sim::OwnReports reports{{.voltage = 12.0, .current = 1.0}, {}, {}};
-  sim::TruthWindow truth{{0}, {0}, motion({0}), motion({0})};
+  const sim::OwnReports reports{rig.battery, {}, {}};
+  const sim::Ambience ambience{rig.rotors, rig.v_air_B, rig.rotor_height};
+  sim::TruthWindow truth{{0}, {0}, motion({0}), motion({0}), ambience};
   suite.Settle(truth.at_end);
   std::vector<stack::Measurement> arrived;
   std::size_t turned = 0;
@@ -31,8 +32,8 @@ void Record(const Rig& rig, render::CameraRenderer* renderer, const Motion& moti
     for (stack::Measurement& measurement : arrived) sink(std::move(measurement));
     for (; turned < turns.size() && turns[turned].at <= truth.end; ++turned) suite.Obey(turns[turned].setpoint);
     const base::Time next = truth.end + rig.step;
-    truth = {truth.end, next, truth.at_end, motion(next)};
-    suite.Integrate(next, truth.at_begin, truth.at_end);
+    truth = {truth.end, next, truth.at_end, motion(next), ambience};
+    suite.Integrate(next, truth.at_begin, truth.at_end, ambience);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -26,6 +27,10 @@ struct Rig {
   base::Duration step = base::Milliseconds(1);
   std::uint64_t seed = 1;
   std::string render = "auto";
+  std::vector<vehicles::RotorState> rotors;  // turning on the bench, one after another of the vehicle's
+  base::Vec3 v_air_B = base::Vec3::Zero();   // a fan before the bench, m/s
+  double rotor_height = std::numeric_limits<double>::infinity();  // above a floor, m
+  stack::BatterySample battery{.voltage = 12.0, .current = 1.0};
 };
 
 /// Without cameras and without the inertial unit: all that takes time.

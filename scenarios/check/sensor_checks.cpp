@@ -5,14 +5,25 @@
 #include "scenarios/check/exposure_check.h"
 #include "scenarios/check/frame_faults_check.h"
 #include "scenarios/check/gimbal_check.h"
+#include "scenarios/check/imu_errors_check.h"
 #include "scenarios/check/inertia_check.h"
 #include "scenarios/check/lens_check.h"
 #include "scenarios/check/photon_transfer_check.h"
 #include "scenarios/check/shutter_check.h"
+#include "scenarios/check/small_errors_check.h"
 #include "scenarios/check/small_sensors_check.h"
 
 namespace alula::scenarios::check {
 namespace {
+
+/// The suite with bias and white noise only: what the other errors do is measured by itself.
+Rig WithoutErrors(Rig rig) {
+  if (rig.sensors.imu) rig.sensors.imu->errors.reset();
+  if (rig.sensors.barometer) rig.sensors.barometer->drift = 0.0;
+  if (rig.sensors.position_reference) rig.sensors.position_reference->gnss.reset();
+  rig.sensors.battery_gauge = {};
+  return rig;
+}
 
 void CheckInertia(const Rig& rig, const sim::ImuConfig& claimed, const Told& told, Report& report) {
   told("imu: Allan deviation");
@@ -53,17 +64,28 @@ void CheckCameras(const Rig& rig, const CameraGroup& group, const sim::SensorsCo
 
 Report CheckSensors(const Rig& rig, const sim::SensorsConfig& claimed, const Told& told) {
   Report report;
-  if (claimed.imu) CheckInertia(rig, *claimed.imu, told, report);
+  const Rig plain = WithoutErrors(rig);
+  if (claimed.imu) {
+    CheckInertia(plain, *claimed.imu, told, report);
+    told("imu: scale, axes, temperature, quantum, vibration");
+    CheckImuErrors(rig, *claimed.imu, report);
+    if (claimed.imu->errors) report.Note("vehicle0/imu: `errors` is off where noise, mount and stamps are measured");
+  }
   if (claimed.barometer) {
     told("barometer");
-    CheckBarometer(rig, *claimed.barometer, report);
+    CheckBarometer(plain, *claimed.barometer, report);
+    told("barometer: drift, wind, ground");
+    CheckBarometerErrors(rig, *claimed.barometer, report);
   }
   if (claimed.position_reference) {
     told("position reference");
-    CheckPositionReference(rig, *claimed.position_reference, report);
+    CheckPositionReference(plain, *claimed.position_reference, report);
+    told("position reference: satellites");
+    CheckGnss(rig, *claimed.position_reference, report);
   }
   told("battery");
-  CheckBattery(rig, claimed, report);
+  CheckBattery(plain, claimed, report);
+  CheckBatteryGauge(rig, claimed, report);
   for (std::size_t i = 0; i < claimed.gimbals.size(); ++i) {
     told("gimbal " + claimed.gimbals[i].name);
     CheckGimbal(rig, static_cast<int>(i), claimed.gimbals[i], report);

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "scenarios/check/landing_check.h"
+#include "scenarios/check/rotor_check.h"
 #include "scenarios/check/sensor_checks.h"
 #include "scenarios/commands/verbs.h"
 #include "scenarios/exit_codes.h"
@@ -70,7 +71,11 @@ int CheckSensors(const CommandLine& line) {
   rig.step = scenario.config.simulation.step;
   rig.seed = scenario.seed;
   rig.render = line.render;
-  const check::Report report = check::CheckSensors(rig, scenario.config.sensors, told);
+  check::Report report = check::CheckSensors(rig, scenario.config.sensors, told);
+  if (const auto* quadrotor = std::get_if<vehicles::QuadrotorConfig>(&scenario.config.vehicle)) {
+    told("rotors: ground effect, vortex ring");
+    check::CheckRotors(*quadrotor, *quadrotor, scenario.seed, report);
+  }
   if (terminal) std::fprintf(stderr, "\r%-70s\r", "");
   if (line.json != "-") std::fputs(check::ToTable(report).c_str(), stdout);
   if (!line.json.empty()) WriteFile("--json", line.json, check::ToJson(report, scenario.name));

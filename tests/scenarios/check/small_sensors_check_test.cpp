@@ -32,8 +32,8 @@ TEST(SmallSensorsCheck, PositionReference) {
   Report right;
   CheckPositionReference(rig, claimed, right);
   EXPECT_EQ(Failed(right), Names{}) << ToTable(right);
-  rig.sensors.position_reference = sim::PositionReferenceConfig{claimed.rate, 1.1 * claimed.position_noise,
-                                                                0.9 * claimed.attitude_noise, base::Milliseconds(21)};
+  rig.sensors.position_reference = sim::PositionReferenceConfig{
+      claimed.rate, 1.1 * claimed.position_noise, 0.9 * claimed.attitude_noise, base::Milliseconds(21), std::nullopt};
   Report wrong;
   CheckPositionReference(rig, claimed, wrong);
   EXPECT_EQ(Failed(wrong), (Names{"position noise, 1 sigma", "attitude noise, 1 sigma", "delay"})) << ToTable(wrong);
