@@ -244,7 +244,7 @@ TEST(IndoorLight, LampsAndHourDim) {
   const Light day = MakeLight({}, room);
   EXPECT_GT(day.sun, 0.0F);
   EXPECT_TRUE(day.lamps.empty());
-  const Light night = MakeLight({.hour = WeatherConfig::Hour::kNight}, room);
+  const Light night = MakeLight({.hour = WeatherConfig::Hour::kNight, .lamps = {}}, room);
   EXPECT_EQ(night.sun, 0.0F);
   EXPECT_LT(night.ambient, 0.1F * day.ambient);
   EXPECT_EQ(night.lamps.size(), 1U);
