@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "worlds/furniture.h"
+#include "worlds/indoor/prints.h"
 #include "worlds/kit/room.h"
 
 namespace alula::worlds {
@@ -21,14 +22,16 @@ constexpr double kPi = std::numbers::pi;
 const Vec3 kSize(8.4, 8.0, 4.0);  // m
 const Vec2 kStart(-2.8, -2.6);
 const Vec2 kTarget(2.7, 2.5);
-constexpr double kPadRadius = 0.45;  // m
-constexpr double kWay = 1.0;         // m, between things that stand
+constexpr double kPadRadius = 0.45;   // m
+constexpr double kTapeLength = 1.36;  // m, of a strip
+constexpr double kTapeWidth = 0.085;
+constexpr double kWay = 1.0;  // m, between things that stand
 
 struct RoomLooks {
   Surface carpet, wall, ceiling;
   int foam = 0, curtain = 0, cloth = 0, card = 0, board = 0, wood = 0, metal = 0, dark = 0, white = 0, pad = 0;
   std::array<int, 3> rugs{};
-  int tape = 0;
+  int tape = 0, tags = 0, checkers = 0;
 };
 
 RoomLooks AddLooks(World& world, const ViconRoomConfig& config, std::uint64_t seed) {
@@ -54,18 +57,20 @@ RoomLooks AddLooks(World& world, const ViconRoomConfig& config, std::uint64_t se
                                           : Palette{{0.74F, 0.74F, 0.72F}, {0.97F, 0.97F, 0.95F}};
   l.wall = surface("white wall", Pattern::kPaint, white, 2.7, 0.05, config.bare_walls ? 1 : 2);
   l.ceiling = surface("ceiling", Pattern::kTiles, {{0.62F, 0.62F, 0.60F}, {0.95F, 0.95F, 0.93F}}, 4.2, 0.04, 1);
-  l.foam = material("mat", Pattern::kWood, {{0.34F, 0.37F, 0.39F}, {0.56F, 0.59F, 0.60F}}, 0.08);
+  l.foam = AddQuilt(world, "mat", config.texture_size, seed);
   l.cloth = material("mat's top", Pattern::kCarpet, {{0.38F, 0.41F, 0.43F}, {0.66F, 0.69F, 0.70F}}, 0.12);
-  l.curtain = material("curtain", Pattern::kWood, {{0.42F, 0.42F, 0.43F}, {0.78F, 0.78F, 0.77F}}, 0.16);
+  l.curtain = material("curtain", Pattern::kCarpet, {{0.40F, 0.40F, 0.41F}, {0.72F, 0.72F, 0.72F}}, 0.10);
   l.card = material("cardboard", Pattern::kPlaster, {{0.46F, 0.36F, 0.25F}, {0.76F, 0.63F, 0.47F}}, 0.12);
   l.board = material("wood board", Pattern::kWood, {{0.22F, 0.19F, 0.16F}, {0.74F, 0.70F, 0.64F}}, 0.24);
   l.wood = material("wood", Pattern::kWood, {{0.42F, 0.31F, 0.20F}, {0.80F, 0.66F, 0.47F}}, 0.14);
   l.metal = material("metal", Pattern::kMetal, {{0.48F, 0.49F, 0.50F}, {0.86F, 0.87F, 0.88F}}, 0.10);
-  l.tape = material("tape with specks", Pattern::kFoliage, {{0.02F, 0.02F, 0.02F}, {0.95F, 0.95F, 0.95F}}, 0.30);
+  l.tape = AddSpeckTape(world, "tape with specks", 2 * config.texture_size, kTapeLength / kTapeWidth, seed);
+  l.tags = AddTagGrid(world, "tag grid", 2 * config.texture_size, seed);
+  l.checkers = AddCheckerboard(world, "checkerboard", config.texture_size, 7, 10);
   l.pad = material("pad", Pattern::kPad, {{0.06F, 0.08F, 0.10F}, {0.95F, 0.93F, 0.85F}}, kFullContrast);
-  l.rugs = {material("rug0", Pattern::kSignal, {{0.20F, 0.28F, 0.34F}, {0.95F, 0.90F, 0.74F}}, 0.22),
-            material("rug1", Pattern::kSignal, {{0.42F, 0.26F, 0.18F}, {0.96F, 0.93F, 0.86F}}, 0.24),
-            material("rug2", Pattern::kSignal, {{0.16F, 0.24F, 0.16F}, {0.92F, 0.90F, 0.80F}}, 0.24)};
+  for (std::size_t i = 0; i < l.rugs.size(); ++i) {
+    l.rugs[i] = AddPlayRug(world, "rug" + std::to_string(i), 2 * config.texture_size, seed);
+  }
   l.dark = AddPlainMaterial(world, "black", {0.06F, 0.06F, 0.07F});
   l.white = AddPlainMaterial(world, "white", {0.95F, 0.95F, 0.94F});
   return l;
@@ -152,27 +157,6 @@ void AddLeaningMats(World& world, const RoomLooks& looks, const std::vector<Wind
   }
 }
 
-/// A sheet of black and white squares, upright and tilted back.
-void AddTarget(World& world, const RoomLooks& looks, const std::string& name, const Transform& X_WO, double side) {
-  constexpr int kSquares = 6;
-  AddBox(world, name + "/sheet", {side, 0.012, side}, X_WO * At({0.0, 0.0, 0.5 * side}), looks.white, 1.0);
-  const double cell = side / (kSquares + 1);
-  auto mesh = std::make_shared<geometry::Mesh>();
-  for (int i = 0; i < kSquares * kSquares; ++i) {
-    if ((i / kSquares + i) % 2 != 0) continue;
-    const double x = (i % kSquares - 0.5 * (kSquares - 1)) * cell;
-    const double z = (i / kSquares - 0.5 * (kSquares - 1)) * cell + 0.5 * side;
-    const auto first = static_cast<std::uint32_t>(mesh->vertices.size());
-    for (const auto& [dx, dz] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}) {
-      mesh->vertices.push_back(
-          {Vec3(x + dx * cell, -0.0085, z + dz * cell).cast<float>(), {0.0F, -1.0F, 0.0F}, {0, 0}});
-    }
-    mesh->triangles.push_back({first, first + 1, first + 2});
-    mesh->triangles.push_back({first, first + 2, first + 3});
-  }
-  AddObject(world, name + "/squares", geometry::MeshShape{mesh}, X_WO, looks.dark, 1.0);
-}
-
 /// What the seed strews over the room: circles that keep clear of start, target and each other.
 class Floor {
  public:
@@ -213,8 +197,9 @@ void AddScreen(World& world, const RoomLooks& looks, const std::string& name, co
              i + 1 == mats ? looks.cloth : looks.foam, 1.2);
       z += thick;
     }
-    AddTarget(world, looks, name + "/target",
-              X_WS * Transform{base::Exp(Vec3(-0.17, 0.0, 0.0)), {random.Uniform(-0.15, 0.15), -0.465, 0.003}}, 0.62);
+    // Its foot stands off and its upper edge leans on the stack.
+    const Transform X_SF{base::Exp(Vec3(-0.17, 0.0, 0.0)), {random.Uniform(-0.15, 0.15), -0.475, 0.003}};
+    AddPrintedBox(world, name + "/target", {0.66, 0.012, 0.66}, X_WS * X_SF * At({0.0, 0.0, 0.33}), 1, looks.tags);
     return;
   }
   const double height = random.Uniform(1.3, 1.9);
@@ -232,7 +217,7 @@ void AddBoxes(World& world, const RoomLooks& looks, const std::string& name, con
   const Transform X_WS = Standing(p.x(), p.y(), 0.0, random.Uniform(-kPi, kPi));
   AddBox(world, name + "/0", {side, 0.8 * side, low}, X_WS * Standing(0.0, 0.0, 0.5 * low), looks.card, 0.9);
   AddBox(world, name + "/tape", {0.06, 0.8 * side + 0.004, low + 0.002}, X_WS * Standing(0.0, 0.0, 0.5 * low + 0.001),
-         looks.tape, 0.35);
+         looks.white, 0.35);
   if (random.Index(2) == 0) {  // a tool box on it
     AddBox(world, name + "/1", {0.3, 0.2, 0.18}, X_WS * Standing(0.0, 0.0, low + 0.092, 0.4), looks.metal, 0.8);
     AddBox(world, name + "/lid", {0.31, 0.21, 0.06}, X_WS * Standing(0.0, 0.0, low + 0.211, 0.4), looks.dark, 0.8);
@@ -245,10 +230,10 @@ void AddBoxes(World& world, const RoomLooks& looks, const std::string& name, con
 /// Rugs, strips of tape and sheets of paper: thin, each a little higher than the one before, so that none flickers.
 void AddFlatThings(World& world, const RoomLooks& looks, const ViconRoomConfig& config, RandomStream& random) {
   double top = 0.004;
-  const auto lay = [&](const std::string& name, double length, double width, const Vec2& p, double yaw, int material,
-                       double scale) {
-    AddBox(world, name, {length, width, top}, Standing(p.x(), p.y(), 0.5 * top, yaw), material, scale,
-           SemanticClass::kGround);
+  // A picture fills a thing of its own; plain ones have their colour alone.
+  const auto lay = [&](const std::string& name, double length, double width, const Vec2& p, double yaw, int material) {
+    AddPrintedBox(world, name, {length, width, top}, Standing(p.x(), p.y(), 0.5 * top, yaw), 2, material,
+                  SemanticClass::kGround);
     top += 0.0003;
   };
   const auto place = [&](double rim) {
@@ -260,15 +245,14 @@ void AddFlatThings(World& world, const RoomLooks& looks, const ViconRoomConfig& 
   };
   for (int i = 0; i < config.rugs; ++i) {
     lay("rug" + std::to_string(i), random.Uniform(1.5, 2.0), random.Uniform(1.0, 1.35), place(1.25),
-        random.Uniform(-kPi, kPi), looks.rugs[static_cast<std::size_t>(i) % looks.rugs.size()], 2.0);
+        random.Uniform(-kPi, kPi), looks.rugs[static_cast<std::size_t>(i) % looks.rugs.size()]);
   }
   for (int i = 0; i < config.strips; ++i) {
-    lay("strip" + std::to_string(i), random.Uniform(1.2, 2.1), 0.085, place(1.1), random.Uniform(-kPi, kPi), looks.tape,
-        0.6);
+    lay("strip" + std::to_string(i), kTapeLength, kTapeWidth, place(1.1), random.Uniform(-kPi, kPi), looks.tape);
   }
   for (int i = 0; i < 2 * config.strips; ++i) {
     lay("paper" + std::to_string(i), random.Uniform(0.05, 0.16), random.Uniform(0.04, 0.1), place(0.3),
-        random.Uniform(-kPi, kPi), random.Index(3) == 0 ? looks.dark : looks.white, 1.0);
+        random.Uniform(-kPi, kPi), random.Index(3) == 0 ? looks.dark : looks.white);
   }
 }
 
@@ -298,7 +282,7 @@ void AddOnWalls(World& world, const RoomLooks& looks, RandomStream& random) {
   for (int i = 0; i < 5; ++i) {
     AddBox(world, "picture" + std::to_string(i), {random.Uniform(0.2, 0.6), 0.012, random.Uniform(0.25, 0.5)},
            WallFrame(2 + i % 2) * At({-3.2 + 1.5 * i + random.Uniform(-0.3, 0.3), 0.008, random.Uniform(2.5, 3.1)}),
-           i % 2 == 0 ? looks.rugs[1] : looks.dark, 0.7, SemanticClass::kWall);
+           i % 2 == 0 ? looks.checkers : looks.dark, 0.7, SemanticClass::kWall);
   }
 }
 

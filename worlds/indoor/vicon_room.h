@@ -24,8 +24,9 @@ struct ViconRoomConfig {
 };
 void Describe(base::Description& d, ViconRoomConfig& c);
 
-/// Streams "world/room", "world/things", "world/masonry", "world/texture/…". No gates, no wind. The vehicle starts on a
-/// pad in one corner region and the target hangs in the opposite one; things keep 1 m apart, so that ways are passable.
+/// Streams "world/room", "world/things", "world/masonry", "world/texture/…", "world/print/…". No gates, no wind. It
+/// starts on a pad in one corner region and the target hangs in the opposite one; things keep 1 m apart, so that ways
+/// are passable.
 World MakeWorld(const ViconRoomConfig& config, std::uint64_t seed);
 
 }  // namespace alula::worlds
