@@ -28,8 +28,8 @@ struct RotorConfig {
   double nominal_voltage = 14.8;       // V
   double time_constant = 0.025;        // s, motor lag
   base::Duration esc_delay = base::Milliseconds(2);
-  std::optional<GroundEffectConfig> ground_effect;  // none: the ground is far
-  std::optional<VortexRingConfig> vortex_ring;      // none: thrust grows with descent
+  std::optional<GroundEffectConfig> ground_effect{};  // none: the ground is far
+  std::optional<VortexRingConfig> vortex_ring{};      // none: thrust grows with descent
 };
 void Describe(base::Description& d, RotorConfig& c);
 

@@ -42,7 +42,7 @@ struct CourtyardConfig {
   double sun_elevation_max = 1.22;    // rad (70°)
   double sunlight = 1.0;              // factor on the sun's drawn strength; 0 at night
   double skylight = 1.0;              // factor on the light of the sky; 0.01 at night
-  std::optional<WindConfig> wind;     // in place of the drawn one
+  std::optional<WindConfig> wind{};   // in place of the drawn one
   int people = 0;                     // who walk about
   double people_speed = 1.2;          // m/s
   bool reactive = true;               // people heed the vehicle

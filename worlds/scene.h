@@ -116,8 +116,8 @@ struct SceneConfig {
   double pad_radius = 1.2;                       // m
   double start_yaw = 0.0;                        // rad
   base::Vec3 target{0.0, 0.0, 1.5};              // m
-  std::optional<base::Vec3> bounds_low;          // m; absent: the ground's rim
-  std::optional<base::Vec3> bounds_high;         // m; absent: the ground's rim and 20 m above it
+  std::optional<base::Vec3> bounds_low{};        // m; absent: the ground's rim
+  std::optional<base::Vec3> bounds_high{};       // m; absent: the ground's rim and 20 m above it
   double sun_azimuth = -0.9;                     // rad, from east to north
   double sun_elevation = 0.9;                    // rad
   double sun = 0.7;                              // strength of direct light
@@ -126,7 +126,7 @@ struct SceneConfig {
   base::Vec3 wind_mean = base::Vec3::Zero();  // m/s, where the air moves to (world axes)
   double gust_sigma = 0.0;                    // m/s, per axis
   double gust_time = 2.0;                     // s
-  std::optional<WindConfig> wind;             // in place of the three
+  std::optional<WindConfig> wind{};           // in place of the three
   std::vector<ActorConfig> actors;            // what moves
   int texture_size = 512;                     // texels a side of our own patterns
 };

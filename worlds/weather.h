@@ -6,21 +6,20 @@
 
 #include "base/describe.h"
 #include "worlds/wind_config.h"
-#include "worlds/wind_config.h"
 #include "worlds/world.h"
 
 namespace alula::worlds {
 
-/// Light and wind of an outdoor world at an hour, under clouds, with fog and lamps. What is absent is drawn from the seed within
-/// what the hour allows; every key may be a distribution.
+/// Light and wind of an outdoor world at an hour, under clouds, with fog and lamps. What is absent is drawn from the
+/// seed within what the hour allows; every key may be a distribution.
 struct WeatherConfig {
   enum class Hour { kDay, kDusk, kNight };
 
   Hour hour = Hour::kDay;
-  std::optional<double> sun_elevation;  // rad; at night the moon's. Day 15–70°, dusk 1–8°, night 20–60°
-  std::optional<double> sun_azimuth;    // rad, from east to north
-  double cloud = 0.2;                   // share of the sky that is covered; at 1 nothing casts a shadow
-  std::optional<Fog> fog;
+  std::optional<double> sun_elevation{};  // rad; at night the moon's. Day 15–70°, dusk 1–8°, night 20–60°
+  std::optional<double> sun_azimuth{};    // rad, from east to north
+  double cloud = 0.2;                     // share of the sky that is covered; at 1 nothing casts a shadow
+  std::optional<Fog> fog{};
   WindConfig wind{.speed = 1.5, .gust_share = 0.2};
 };
 void Describe(base::Description& d, WeatherConfig& c);

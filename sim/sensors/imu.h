@@ -30,7 +30,7 @@ struct ImuConfig {
                         .accelerometer_turn_on_bias = 0.05,
                         .gyro_range = 17.5,             // 1000 deg/s
                         .accelerometer_range = 176.5};  // 18 g
-  std::optional<ImuErrors> errors;                      // none: bias and noise are all that is wrong
+  std::optional<ImuErrors> errors{};                    // none: bias and noise are all that is wrong
 };
 void Describe(base::Description& d, ImuConfig& c);
 /// The autopilot's own: 1 kHz and wide, so that the rate loop keeps its phase.

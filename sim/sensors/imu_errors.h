@@ -23,7 +23,7 @@ struct ImuErrors {
   base::Vec3 g_sensitivity_y = base::Vec3::Zero();
   base::Vec3 g_sensitivity_z = base::Vec3::Zero();
   SelfHeatingConfig temperature;
-  std::optional<RotorVibrationConfig> vibration;
+  std::optional<RotorVibrationConfig> vibration{};
 
   base::Mat3 GSensitivity() const;
 };

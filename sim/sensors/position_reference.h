@@ -18,7 +18,7 @@ struct PositionReferenceConfig {
   double position_noise = 0.002;                  // 1σ per axis, m
   double attitude_noise = 0.0034906585039886592;  // 1σ per axis, rad (0.2 deg)
   base::Duration delay = base::Milliseconds(20);
-  std::optional<GnssConfig> gnss;  // satellites: the position wanders and may be lost, attitude is not measured
+  std::optional<GnssConfig> gnss{};  // satellites: the position wanders and may be lost, attitude is not measured
 };
 void Describe(base::Description& d, PositionReferenceConfig& c);
 

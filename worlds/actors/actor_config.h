@@ -14,8 +14,8 @@ namespace alula::worlds {
 struct PersonConfig {
   std::vector<base::Vec3> waypoints;  // one: stands there
   bool closed = false;
-  double speed = 1.2;            // m/s
-  std::optional<double> height;  // m; null: drawn
+  double speed = 1.2;              // m/s
+  std::optional<double> height{};  // m; null: drawn
   bool reactive = true;
 };
 void Describe(base::Description& d, PersonConfig& c);

@@ -14,7 +14,7 @@ struct IndoorLightConfig {
   enum class Lamps { kOn, kDim, kOff };
 
   WeatherConfig::Hour hour = WeatherConfig::Hour::kDay;
-  std::optional<Lamps> lamps;  // none: as the hour has it: on by day and at dusk, dim at night
+  std::optional<Lamps> lamps{};  // none: as the hour has it: on by day and at dusk, dim at night
 };
 void Describe(base::Description& d, IndoorLightConfig& c);
 
