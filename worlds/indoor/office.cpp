@@ -19,6 +19,7 @@ using base::Vec3;
 constexpr double kPi = std::numbers::pi;
 const Vec3 kSize(6.0, 1.5, 2.6);  // m
 constexpr double kStart = -2.45;
+constexpr double kTarget = 2.6;
 constexpr double kPadRadius = 0.3;
 
 struct CorridorLooks {
@@ -101,7 +102,7 @@ void AddOnWalls(World& world, const CorridorLooks& looks, RandomStream& random) 
 
 /// Things along the walls; what stands opposite keeps 0.75 m along the corridor.
 void AddThings(World& world, const CorridorLooks& looks, const OfficeConfig& config, RandomStream& random) {
-  std::vector<std::pair<double, double>> taken{{kStart, kPadRadius + 0.15}};
+  std::vector<std::pair<double, double>> taken{{kStart, kPadRadius + 0.15}, {kTarget, 0.05}};
   const std::uint64_t first = random.Index(5);
   for (int i = 0; i < config.things; ++i) {
     const std::uint64_t kind = (first + static_cast<std::uint64_t>(i)) % 5;
@@ -177,7 +178,7 @@ World MakeWorld(const OfficeConfig& config, std::uint64_t seed) {
   AddEmergencyLamps(world, light, looks.office.white);
   world.light = MakeLight(config.light, light);
   world.X_WB_start = Standing(kStart, 0.0, kPadHeight, office.Uniform(-0.1, 0.1));
-  world.target = {2.6, 0.0, 1.0};
+  world.target = {kTarget, 0.0, 1.0};
   world.bounds_low = {-0.5 * kSize.x(), -0.5 * kSize.y(), 0.0};
   world.bounds_high = {0.5 * kSize.x(), 0.5 * kSize.y(), kSize.z() - 0.05};
   return world;
