@@ -115,6 +115,7 @@ struct Kind {
   const char* name;
   std::function<World(std::uint64_t)> make;
 };
+void PrintTo(const Kind& kind, std::ostream* out) { *out << kind.name; }  // in the names of tests
 template <typename Config>
 World MakeSmall(std::uint64_t seed, Config config = {}) {
   config.texture_size = 32;

@@ -8,7 +8,11 @@
 #include "scenarios/gallery/viewpoints.h"
 #include "sim/physics_world.h"
 
-namespace alula::scenarios::gallery {
+namespace alula::scenarios {
+
+void PrintTo(const CatalogEntry& entry, std::ostream* out) { *out << entry.name; }  // in the names of tests
+
+namespace gallery {
 namespace {
 
 constexpr int kWidth = 752;
@@ -121,4 +125,5 @@ INSTANTIATE_TEST_SUITE_P(Catalog, EachWorld, testing::ValuesIn(CatalogWorlds()),
                          [](const auto& param) { return param.param.name; });
 
 }  // namespace
-}  // namespace alula::scenarios::gallery
+}  // namespace gallery
+}  // namespace alula::scenarios
