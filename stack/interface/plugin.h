@@ -463,7 +463,8 @@ static inline AlulaTransform alula_identity(void) {
   return X;
 }
 
-/* The one symbol that a library must export: ALULA_STACK_EXPORT const AlulaStackPlugin* alula_stack_plugin(void) { … } */
+/* The one symbol that a library must export: ALULA_STACK_EXPORT const AlulaStackPlugin* alula_stack_plugin(void) { … }
+ */
 #if defined(__GNUC__)
 #define ALULA_STACK_EXPORT __attribute__((visibility("default")))
 #else

@@ -144,8 +144,10 @@ RoomLight AddLamps(World& world, const CorridorLooks& looks) {
   light.overhead = 0.20;
   light.scattered = 0.78;
   light.to_overhead = {0.22, 0.12, 1.0};
-  light.emergency = {
-      {.position = {-0.5 * kSize.x() + kLampRadius, 0.0, 2.35}, .intensity = 0.12, .colour = {0.5, 1.0, 0.6}, .range = 8.0}};
+  light.emergency = {{.position = {-0.5 * kSize.x() + kLampRadius, 0.0, 2.35},
+                      .intensity = 0.12,
+                      .colour = {0.5, 1.0, 0.6},
+                      .range = 8.0}};
   return light;
 }
 

@@ -242,7 +242,10 @@ RoomLight AddLamps(World& world, const FloorLooks& looks, const std::vector<Room
   light.scattered = 0.65;
   light.to_overhead = {0.25, 0.18, 1.0};
   const auto exit_lamp = [](double x, double y) {
-    return Lamp{.position = {x, y, kSize.z() - 3.0 * kLampRadius}, .intensity = 0.18, .colour = {0.55, 1.0, 0.65}, .range = 9.0};
+    return Lamp{.position = {x, y, kSize.z() - 3.0 * kLampRadius},
+                .intensity = 0.18,
+                .colour = {0.55, 1.0, 0.65},
+                .range = 9.0};
   };
   light.emergency = {exit_lamp(-9.92, 0.0), exit_lamp(0.0, 0.0), exit_lamp(9.92, 0.0)};
   return light;
