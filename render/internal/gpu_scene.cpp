@@ -11,7 +11,9 @@ namespace {
 
 using Vertex = geometry::Mesh::Vertex;
 
-GLuint UploadLevels(const GlFunctions& gl, const std::vector<TextureLevel>& levels, int channels) {
+/// `between_levels`: how the look-ups mix levels where the texture is seen smaller than it is.
+GLuint UploadLevels(const GlFunctions& gl, const std::vector<TextureLevel>& levels, int channels,
+                    GLint between_levels = GL_LINEAR_MIPMAP_LINEAR) {
   GLuint texture = 0;
   gl.GenTextures(1, &texture);
   gl.BindTexture(GL_TEXTURE_2D, texture);
@@ -22,7 +24,7 @@ GLuint UploadLevels(const GlFunctions& gl, const std::vector<TextureLevel>& leve
                   channels == 1 ? GL_RED : GL_RGB, GL_UNSIGNED_BYTE, level.bytes.data());
   }
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, number - 1);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, between_levels);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_REPEAT);
   gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_REPEAT);
@@ -181,7 +183,9 @@ GLuint GpuScene::TextureOf(int material, TextureKind kind) {
 GLuint GpuScene::AlphaOf(int material) {
   GLuint& texture = alphas_[material];
   if (texture == 0) {
-    texture = UploadLevels(*gl_, AlphaLevels(geometry_->materials[static_cast<std::size_t>(material)]), 1);
+    // What is compared with one half needs no mixing, and looking up one texel is what the rasteriser's pace hangs on.
+    texture = UploadLevels(*gl_, AlphaLevels(geometry_->materials[static_cast<std::size_t>(material)]), 1,
+                           GL_NEAREST_MIPMAP_NEAREST);
   }
   return texture;
 }

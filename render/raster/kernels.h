@@ -59,7 +59,7 @@ struct DrawJob {
   Vertices vertices;
   Target target;
   DrawnList* drawn;        // appended to
-  std::uint32_t* to_clip;  // out: numbers of the triangles that the caller must clip; room for `count`
+  std::uint32_t* to_clip;  // out: numbers of the triangles that are left to the caller; room for `count`
 };
 
 /// A triangle in the picture, and 1/depth = plane[0] + plane[1]·x + plane[2]·y on it, held within [low, high].
@@ -146,7 +146,7 @@ struct ShadeJob {
   std::uint32_t frame;         // never the same twice
   const TextureView* textures;
   const std::uint16_t* words[3];    // by channel
-  const std::uint16_t* shadow_map;  // distances from the sun, 1/65535, less 2¹⁵ (as numbers with a sign); row by row
+  const std::uint32_t* shadow_map;  // as ShadowMap's words (shadow_map.h)
   int shadow_side;                  // texels
   int shadow_pitch;                 // words a row
   float sky_up[3];                  // z of the ray in world axes: at pixel (0, 0), by x, by y
@@ -217,6 +217,8 @@ struct Kernels {
   /// depth = (m[8..11] · p).
   void (*transform)(const Positions& positions, const Vertices& vertices, std::uint32_t first, std::uint32_t count,
                     const float* m, float near);
+  /// Puts those triangles into `to_clip` that may show, in their order; returns their number.
+  std::uint32_t (*choose)(const DrawJob& job);
   /// Returns the number of triangles in `to_clip`.
   std::uint32_t (*draw)(const DrawJob& job);
   void (*draw_one)(const Target& target, const ScreenTriangle& triangle);

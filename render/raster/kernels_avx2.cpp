@@ -18,7 +18,7 @@ namespace {
 #include "render/raster/lit.inc"
 // clang-format on
 
-constexpr Kernels kKernels{"avx2", Transform, Draw, DrawOne, DrawWithHoles, Shade, Metres, Normals, ShadeLit};
+constexpr Kernels kKernels{"avx2", Transform, Choose, Draw, DrawOne, DrawWithHoles, Shade, Metres, Normals, ShadeLit};
 
 }  // namespace
 

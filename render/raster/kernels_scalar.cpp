@@ -16,7 +16,7 @@ namespace {
 #include "render/raster/lit.inc"
 // clang-format on
 
-constexpr Kernels kKernels{"scalar", Transform, Draw, DrawOne, DrawWithHoles, Shade, Metres, Normals, ShadeLit};
+constexpr Kernels kKernels{"scalar", Transform, Choose, Draw, DrawOne, DrawWithHoles, Shade, Metres, Normals, ShadeLit};
 
 }  // namespace
 

@@ -128,8 +128,6 @@ void RasterRenderer::DrawLevel(const internal::Batch& batch, const internal::Lev
   kernels_->transform(scene_->positions(), vertices_.arrays(), level.first_vertex, level.vertex_count, m.data(),
                       static_cast<float>(internal::kNear));
   const std::uint32_t triangles = level.index_count / 3;
-  for (std::uint32_t i = 0; batch.holes && i < triangles; ++i) DrawSingly(target, level.first_index / 3 + i, true);
-  if (batch.holes) return;
   to_clip_.resize(std::max<std::size_t>(to_clip_.size(), triangles));
   const DrawJob job{{scene_->corners(0), scene_->corners(1), scene_->corners(2)},
                     level.first_index / 3,
@@ -138,8 +136,21 @@ void RasterRenderer::DrawLevel(const internal::Batch& batch, const internal::Lev
                     target,
                     &drawn_,
                     to_clip_.data()};
-  const std::uint32_t count = kernels_->draw(job);
-  for (std::uint32_t i = 0; i < count; ++i) DrawSingly(target, to_clip_[i], false);
+  const std::span<std::uint32_t> left(to_clip_.data(), batch.holes ? kernels_->choose(job) : kernels_->draw(job));
+  if (batch.holes) SortByDepth(left);
+  for (const std::uint32_t number : left) DrawSingly(target, number, batch.holes);
+}
+
+void RasterRenderer::SortByDepth(std::span<std::uint32_t> triangles) {
+  const float* depth = vertices_.arrays().depth;
+  by_depth_.clear();
+  for (const std::uint32_t number : triangles) {
+    float sum = 0.0F;
+    for (std::size_t i = 0; i < 3; ++i) sum += depth[scene_->corners(i)[number]];
+    by_depth_.emplace_back(sum, number);
+  }
+  std::sort(by_depth_.begin(), by_depth_.end());
+  for (std::size_t i = 0; i < triangles.size(); ++i) triangles[i] = by_depth_[i].second;
 }
 
 void RasterRenderer::DrawSingly(const Target& target, std::uint32_t number, bool has_holes) {

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/camera_renderer.h"
@@ -44,6 +45,8 @@ class RasterRenderer final : public CameraRenderer {
   void DrawLevel(const internal::Batch& batch, const internal::Level& level, const std::array<float, 12>& m,
                  const Target& target);
   void DrawMover(const View& view, std::size_t number, const Target& target);
+  /// Nearest first, by the mean of their corners: holes need not be looked up where a nearer triangle has won.
+  void SortByDepth(std::span<std::uint32_t> triangles);
   /// Triangles that must be clipped, and those with holes.
   void DrawSingly(const Target& target, std::uint32_t triangle, bool has_holes);
   void ShadeLit(const View& view, const internal::AirAndLamps& air, const ShadeJob& shade);
@@ -73,6 +76,7 @@ class RasterRenderer final : public CameraRenderer {
   std::vector<MoverShadow> mover_regions_;
   VisibilityBuffer buffer_;
   std::vector<std::uint32_t> to_clip_;
+  std::vector<std::pair<float, std::uint32_t>> by_depth_;  // three times the mean depth, triangle
   std::vector<Corner> polygon_;
 };
 

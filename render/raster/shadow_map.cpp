@@ -85,52 +85,59 @@ void DrawBatch(const internal::SceneGeometry& scene, const internal::Batch& batc
 }
 
 /// Nearness in the map's words. Rounded away from the sun: the part of a step that is cut off goes to the light.
-std::uint16_t WordOf(float nearness) {
-  return static_cast<std::uint16_t>(65535 - static_cast<std::int32_t>(nearness * 65535.0F) - 32768);
+std::int16_t DistanceOf(float nearness) {
+  return static_cast<std::int16_t>(65535 - static_cast<std::int32_t>(nearness * 65535.0F) - 32768);
 }
 
 /// The rows of one row of tiles, from nearness; the map's rim stays at 65535: what lies beyond the map looks up its
 /// edge and finds light.
 void CopyTiles(const Target& target, int tile_row, ShadowMap& map) {
   for (int y = 0; y < kTile; ++y) {
-    std::uint16_t* out = map.words.data() + std::ptrdiff_t{tile_row * kTile + y} * map.pitch;
     for (int tile = 0; tile < target.tiles_x; ++tile) {
       const float* row = target.inverse_depth + (std::ptrdiff_t{tile_row} * target.tiles_x + tile) * kTile * kTile +
                          std::ptrdiff_t{y} * kTile;
       for (int x = 0; x < kTile; ++x) {
-        out[tile * kTile + x] = WordOf(row[x]);
+        map.Set(tile * kTile + x, tile_row * kTile + y, DistanceOf(row[x]));
       }
     }
   }
 }
 
 void ClearRim(ShadowMap& map) {
-  constexpr std::uint16_t kNothing = 65535 - 32768;
+  constexpr std::int16_t kNothing = 65535 - 32768;
+  constexpr int kLast = kShadowSide - 1;
   for (int i = 0; i < kShadowSide; ++i) {
-    const std::ptrdiff_t last = kShadowSide - 1;
-    for (const std::ptrdiff_t at : {std::ptrdiff_t{i}, last * map.pitch + i, std::ptrdiff_t{i} * map.pitch,
-                                    std::ptrdiff_t{i} * map.pitch + last}) {
-      map.words[static_cast<std::size_t>(at)] = kNothing;
-    }
+    map.Set(i, 0, kNothing);
+    map.Set(i, kLast, kNothing);
+    map.Set(0, i, kNothing);
+    map.Set(kLast, i, kNothing);
   }
 }
 
 /// Takes what is nearer to the sun into the map; the target's pixel (0, 0) is the region's first texel.
 void Merge(const Target& target, const internal::ShadowRegion& region, ShadowMap& map) {
   for (int y = region.y0; y <= region.y1; ++y) {
-    std::uint16_t* row = map.words.data() + std::ptrdiff_t{y} * map.pitch;
     const int ty = y - region.y0;
     for (int x = region.x0; x <= region.x1; ++x) {
       const int tx = x - region.x0;
       const int tile = ty / kTile * target.tiles_x + tx / kTile;
       const float nearness = target.inverse_depth[tile * kTile * kTile + ty % kTile * kTile + tx % kTile];
-      const auto word = static_cast<std::int16_t>(WordOf(nearness));
-      if (word < static_cast<std::int16_t>(row[x])) row[x] = static_cast<std::uint16_t>(word);
+      const std::int16_t distance = DistanceOf(nearness);
+      if (distance < map.At(x, y)) map.Set(x, y, distance);
     }
   }
 }
 
 }  // namespace
+
+void ShadowMap::Set(int x, int y, std::int16_t distance) {
+  const auto bits = std::uint32_t{static_cast<std::uint16_t>(distance)};
+  std::uint32_t& own = words[Index(x, y)];
+  own = (own & 0xffff0000U) | bits;
+  if (y == 0) return;
+  std::uint32_t& above = words[Index(x, y - 1)];
+  above = (above & 0xffffU) | bits << 16;
+}
 
 ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const PackedTextures& alpha, const Kernels& kernels) {
   VisibilityBuffer buffer;
@@ -140,7 +147,7 @@ ShadowMap DrawShadowMap(const internal::SceneGeometry& scene, const PackedTextur
     DrawBatch(scene, batch, scene.shadow.texture_from_world, alpha, kernels, base::Vec2::Zero(), target);
   }
   ShadowMap map;
-  constexpr int kPadding = 32;  // words: rows that follow each other do not fall into the same cache sets
+  constexpr int kPadding = 16;  // words: rows that follow each other do not fall into the same cache sets
   map.pitch = kShadowSide + kPadding;
   map.words.resize(static_cast<std::size_t>(map.pitch) * kShadowSide);
   for (int row = 0; row < target.tiles_y; ++row) CopyTiles(target, row, map);
@@ -153,7 +160,7 @@ const ShadowMap& MoverShadows::Place(const internal::SceneGeometry& scene, const
                                      std::span<const base::Transform> X_WM) {
   if (map_.words.empty()) map_ = statics;
   for (const internal::ShadowRegion& region : regions_) {
-    for (int y = region.y0; y <= region.y1; ++y) {
+    for (int y = region.y0 - 1; y <= region.y1; ++y) {  // the row above holds the first row in its high halves
       const std::ptrdiff_t at = std::ptrdiff_t{y} * map_.pitch + region.x0;
       std::copy_n(statics.words.begin() + at, region.x1 - region.x0 + 1, map_.words.begin() + at);
     }

@@ -12,11 +12,20 @@
 namespace alula::render::raster {
 
 /// Distance from the sun of what it sees first of the statics, in 1/65535 of the frame's depth (65535: nothing), less
-/// 2¹⁵; rows of kShadowSide texels, `pitch` apart. Pushed away from the sun by 1.5 times its slope a texel against
-/// self-shadowing. The outermost texels stay empty.
+/// 2¹⁵; rows of kShadowSide words, `pitch` apart. A word holds its texel in the low half and the one below it (the next
+/// row's) in the high half, so that four neighbours are 64 bits that follow each other. Pushed away from the sun by 1.5
+/// times its slope a texel against self-shadowing. The outermost texels stay empty.
 struct ShadowMap {
   int pitch = 0;
-  std::vector<std::uint16_t> words;
+  std::vector<std::uint32_t> words;
+
+  std::int16_t At(int x, int y) const { return static_cast<std::int16_t>(words[Index(x, y)]); }
+  void Set(int x, int y, std::int16_t distance);
+
+ private:
+  std::size_t Index(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(pitch) + static_cast<std::size_t>(x);
+  }
 };
 
 /// Draws the full levels of all statics; both faces cast.

@@ -74,7 +74,7 @@ Shadowing OfTexels(const Lookup& t, const ShadowMap& map, const Rectangle& r, co
   const auto nearest = static_cast<float>(t.nearest - kRounding);
   int texels = 0, lit = 0, dark = 0;
   for (int y = r.y0; y <= r.y1; ++y) {
-    const std::uint16_t* row = map.words.data() + std::ptrdiff_t{y} * map.pitch + r.x0;
+    const std::uint32_t* row = map.words.data() + std::ptrdiff_t{y} * map.pitch + r.x0;
     const auto first = static_cast<float>(t.at + t.by_x * r.x0 + t.by_y * y);
     for (int i = 0; i <= r.x1 - r.x0; ++i) {  // without a branch: several texels at a time
       const float here = first + by_x * static_cast<float>(i);

@@ -38,7 +38,7 @@ double LightAt(const ShadowMap& map, double x, double y, double away) {
   for (int i = 0; i < 4; ++i) {
     const int u = x0 + i % 2, v = y0 + i / 2;
     const double weight = (1.0 - std::abs(x - u)) * (1.0 - std::abs(y - v));
-    const auto word = static_cast<std::int16_t>(map.words[static_cast<std::size_t>(v * map.pitch + u)]);
+    const auto word = map.At(u, v);
     if (std::floor(away) <= word + 32768.0) light += weight;
   }
   return light;
