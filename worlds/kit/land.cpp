@@ -225,6 +225,7 @@ void AddTreeLine(World& world, const Land& land, const TreeLineConfig& config, s
       AddFoliageMaterial(world, "treeline/conifer", {.kind = Foliage::kFir, .leaves = needles, .size = 128}, seed)};
   const Woods woods(random);
   constexpr int kSectors = 16;
+  constexpr double kRim = 0.12;  // of the woods' share
   std::array<std::array<std::shared_ptr<Mesh>, kSectors>, 2> meshes;
   for (auto& kind : meshes) {
     for (auto& mesh : kind) mesh = std::make_shared<Mesh>();
@@ -240,7 +241,9 @@ void AddTreeLine(World& world, const Land& land, const TreeLineConfig& config, s
       // Woods thin out towards their rim, and stand densest on the crest, which hides the land's end.
       const double share = woods.At(p) + 0.5 * Smooth(0.55, 0.95, beyond / (far - land.half).minCoeff());
       const bool out = (p.cwiseAbs() - far).maxCoeff() > -1.0;
-      if (beyond < config.nearest || out || share < 1.0 - config.woods) continue;
+      // Within a wood one tree in two would be seen of no one: those before it stand close.
+      const bool within = share > 1.0 - config.woods + kRim && random.Uniform() < 0.5;
+      if (beyond < config.nearest || out || share < 1.0 - config.woods || within) continue;
       const int sector = static_cast<int>((std::atan2(p.y(), p.x()) / (2.0 * kPi) + 0.5) * kSectors) % kSectors;
       AddCrossedCards(*meshes[conifer ? 1 : 0][static_cast<std::size_t>(sector)], land.On(p) - Vec3(0.0, 0.0, 0.3),
                       (conifer ? 0.62 : 0.85) * height, height, yaw);
