@@ -23,9 +23,11 @@ struct RotorSpacing {
 ///   (1 + (V/v_i)²))
 ///
 /// Bracket: Sanchez-Cuevas, Heredia and Ollero 2017, "Characterization of the aerodynamic ground effect and its
-/// influence in multirotor control", eq. 9 (image sources of all four rotors, and the fountain on the body); its first
-/// term alone, and how it fades with the air's horizontal speed V over the induced velocity v_i: Cheeseman and Bennett
-/// 1955. Measured down to z = R/2, where z is held: discs do not come nearer. `speed_ratio` = V / v_i.
+/// influence in multirotor control", eq. 4 (image sources of all four rotors, and the fountain on the body); its first
+/// term alone, and how it fades with the air's horizontal speed V: Cheeseman and Bennett 1955, applied here to the
+/// whole bracket and with the induced velocity v_i of hover at the same rotor speed. Measured down to z = R/2, where z
+/// is held: discs do not come nearer. The bracket is held at 1/2, which no layout of discs side by side reaches.
+/// `speed_ratio` = V / v_i.
 double GroundEffectRatio(const GroundEffectConfig& config, const RotorSpacing& spacing, double z, double speed_ratio);
 
 /// Height in radii beyond which the ratio lies below 1.005 for usual spacings.

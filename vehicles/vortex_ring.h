@@ -6,8 +6,9 @@ namespace alula::vehicles {
 
 /// A rotor that descends into its own wake. Over x = descent rate / v_h, v_h = √(T_0 / 2ρA) the induced velocity of the
 /// same rotor speed at hover: flight tests and tunnels show loss of thrust and its strongest fluctuation near x = 1,
-/// beginning near 0.4 and ending below 1.8, and none where horizontal air washes the wake away (Leishman 2006, section
-/// 2.13.6 and figure 2.18; Johnson 2005, "Model for vortex ring state influence on rotorcraft flight dynamics").
+/// beginning near 0.4 and ending below 1.8, and none where horizontal air washes the wake away (Leishman 2006, chapter
+/// 2; Johnson 2005, NASA/TP-2005-213477: unstable between 0.45 and 1.5, inflow changed between 0.2 and 2.0). The shape
+/// between these ends, and the share of thrust that is lost, are ours.
 struct VortexRingConfig {
   double begin = 0.4;           // x
   double worst = 1.0;           // x

@@ -8,7 +8,7 @@
 
 namespace alula::worlds {
 
-/// Scale lengths (m) and intensities (m/s) of turbulence near the ground, MIL-F-8785C, 3.7.3.4 (h in feet, held within
+/// Scale lengths (m) and intensities (m/s) of turbulence near the ground, MIL-F-8785C, 3.7.3 (h in feet, held within
 /// 10 and 1000 ft):
 ///   L_w = h,       L_u = L_v = h / (0.177 + 0.000823 h)^1.2
 ///   σ_w = 0.1 W₂₀, σ_u = σ_v = σ_w / (0.177 + 0.000823 h)^0.4

@@ -8,7 +8,7 @@ namespace alula::sim {
 namespace {
 
 constexpr double kAirDensity = 1.225;  // kg/m³, ISO 2533 at sea level
-constexpr double kCushionReach = 2.0;  // m: there a disc of 0.3 m radius has 0.1 % of its loading left
+constexpr double kCushionReach = 2.0;  // m: there a disc of 0.3 m radius has 0.14 % of its loading left
 
 /// Disc loading times (R/4z)², Pa.
 double CushionPressure(const Ambience& ambience) {

@@ -33,8 +33,8 @@ double GroundReach(const BarometerConfig& c);
 ///   d_{k+1} = a d_k + σ √(1 − a²) n,  a = e^(−1 / (rate · drift_time)),  in its stationary distribution from the start
 ///
 /// v: through the air, body axes, ρ = 1.225 kg/m³; the form of PX4's EKF2_PCOEF_XP … Z (static pressure position
-/// error). ΣT / ΣA: disc loading; the cushion carries what thrust gains by the ground, which is (R/4z)² of it
-/// (Cheeseman and Bennett 1955; vehicles/ground_effect.h).
+/// error), equal for both directions. ΣT / ΣA: disc loading; the cushion carries what thrust gains by the ground, which
+/// is (R/4z)² of it (Cheeseman and Bennett 1955; vehicles/ground_effect.h).
 class Barometer {
  public:
   Barometer(const BarometerConfig& config, std::uint64_t seed, const std::string& name);

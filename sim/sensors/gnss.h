@@ -17,7 +17,8 @@ struct Outage {
 };
 void Describe(base::Description& d, Outage& c);
 
-/// A position reference by satellites instead of motion capture. Defaults: a single-frequency receiver under open sky.
+/// A position reference by satellites instead of motion capture. Defaults, chosen by us: a single-frequency receiver
+/// under open sky.
 struct GnssConfig {
   double horizontal = 1.0;         // 1σ per axis of the wandering error, m
   double vertical = 2.0;           // 1σ, m
@@ -29,8 +30,9 @@ struct GnssConfig {
 void Describe(base::Description& d, GnssConfig& c);
 
 /// Position error of first-order Gauss–Markov axes, e_{k+1} = a e_k + σ √(1 − a²) n, a = e^(−dt/τ), stationary from the
-/// start (Rankin 1994, "An error model for sensor simulation: GPS and differential GPS");
-/// outages begin as a Poisson process and last an exponentially distributed time.
+/// start, in the manner of Rankin 1994 ("An error model for sensor simulation: GPS and differential GPS"), who has
+/// such processes in the pseudoranges: by axis of the position it is a simplification. Outages begin as a Poisson
+/// process and last an exponentially distributed time.
 class GnssErrors {
  public:
   /// Streams "<name>.gnss", "<name>.outages".

@@ -11,11 +11,12 @@ namespace alula::sim {
 
 /// What a real unit does besides bias and noise; by default nothing. All of it hangs together as
 ///
-///   w = Q[ M_g(ΔT) (w_I + w_vib) + G f + b_g + b_gT ΔT + n_g ],   f = Q[ M_a(ΔT) (f_I + f_vib) + b_a + b_aT ΔT + n_a ]
+///   w = Q[ M_g(ΔT) (w_I + w_vib) + G (f_I + f_vib) + b_g + b_gT ΔT + n_g ],   f = Q[ M_a(ΔT) (f_I + f_vib) + b_a +
+///   b_aT ΔT + n_a ]
 ///
 /// with the saturation before the quantiser Q, M of triad_errors.h, ΔT of self_heating.h and the vibration of
-/// rotor_vibration.h. G is the gyro's g-sensitivity: what an axis reads of the true specific force (IEEE Std 1431,
-/// "acceleration sensitivity"; Rehder et al. 2016, eq. 6).
+/// rotor_vibration.h. G is the gyro's g-sensitivity: what an axis reads of the true specific force, vibration included
+/// (IEEE Std 1431; Rehder et al. 2016 in their gyroscope's model, with the force in the gyroscope's axes, here in I).
 struct ImuErrors {
   GyroErrors gyro;
   AccelerometerErrors accelerometer;

@@ -35,9 +35,10 @@ void Describe(base::Description& d, RotorVibrationConfig& c);
 /// imbalance m e grows with Ω² (Den Hartog, Mechanical Vibrations, ch. 2, rotating unbalance), as thrust and its ripple
 /// do; the angular rate is a torque's integral and grows with Ω. N per revolution: Johnson, Rotorcraft Aeromechanics.
 ///
-/// Evaluated where a sample is taken, never stepped: N Ω lies above half the physics rate (3 × 1000 rad/s = 477 Hz at
-/// hover) and would fold there by accident. What the sensor's own output rate folds is real: with 200 Hz, 159 Hz reads
-/// as 41 Hz. Speeds are taken to change slowly against the filter (motors need 25 ms, the filter 2 ms).
+/// Evaluated where a sample is taken, never stepped: N Ω lies about or above half the physics rate of 1 kHz (q250 with
+/// three blades: 518 Hz at hover, 1003 Hz at full speed) and would fold there by accident. What the sensor's own output
+/// rate folds is real: with 200 Hz, 159 Hz reads as 41 Hz. Speeds are taken to change slowly against the filter (motors
+/// need 25 ms, the filter 2.5 ms).
 class RotorVibration {
  public:
   /// Random numbers of the stream `name`. `corner`: of the low-pass, rad/s.

@@ -14,7 +14,7 @@ struct SelfHeatingConfig {
 void Describe(base::Description& d, SelfHeatingConfig& c);
 
 /// One thermal mass under constant power (lumped capacitance; Incropera and DeWitt, Fundamentals of Heat and Mass
-/// Transfer, section 5.1), in K above the temperature of calibration at t (s) since the run's beginning:
+/// Transfer, chapter 5), in K above the temperature of calibration at t (s) since the run's beginning:
 ///
 ///   ΔT(t) = ambient + rise (1 − exp(−(t + powered_for) / time_constant))
 double AboveCalibration(const SelfHeatingConfig& config, double t);

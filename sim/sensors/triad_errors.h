@@ -24,8 +24,9 @@ void Describe(base::Description& d, AccelerometerErrors& c);
 ///
 ///   M(ΔT) = diag(1 + k + k_T ΔT) (I + L) Exp(m)ᵀ,   L = [0 0 0; l_1 0 0; l_2 l_3 0]
 ///
-/// Scale times lower triangular non-orthogonality times rotation: Rehder, Nikolic, Schneider, Hinzmann and Siegwart
-/// 2016 ("Extending kalibr", section III), Tedaldi, Pretto and Menegatti 2014, eqs. 1 to 5.
+/// A lower triangular matrix times a rotation, as Rehder, Nikolic, Schneider, Hinzmann and Siegwart 2016 ("Extending
+/// kalibr") have it for gyroscopes (their accelerometer is the frame). Tedaldi, Pretto and Menegatti 2014 state the
+/// inverse, from reading to truth.
 base::Mat3 SensingMatrix(const TriadErrors& errors, double delta_T);
 
 /// The nearest multiple of the quantum, ties away from zero; v itself where there is none.

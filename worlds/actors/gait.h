@@ -7,7 +7,8 @@
 
 namespace alula::worlds {
 
-/// Lengths of a body, shares of its height as Winter (2009, "Biomechanics and Motor Control", fig. 4.1) has them; m.
+/// Lengths of a body, m: legs and feet as shares of its height as Winter (2009, "Biomechanics and Motor Control",
+/// fig. 4.1) has them; trunk and arms a little less, because the joints of what is drawn lie inside its outline.
 struct Proportions {
   explicit Proportions(double height);
   double thigh, shin;                // hip to knee, knee to ankle
@@ -52,8 +53,9 @@ struct Foot {
 /// half a stride before the right. A foot stands for 62 % of the stride: its ball does not move at all, from the middle
 /// of the stance on the heel rises about it. It then swings, on a minimum-jerk curve, to where the body will be. The
 /// pelvis is as high as both legs let it be (compass gait), knees by inverse kinematics; arms swing against the legs.
-/// Stride from speed: step length / step rate is constant, 0.0064 m min (Sekiya & Nagasaki 1998), so
-/// S = 2 √(0.0064 · 60 · v) for 1.75 m of height, and in proportion.
+/// Stride from speed: step length / step rate is taken as constant, 0.0064 m min (the walk ratio of Sekiya & Nagasaki
+/// 1998; the measured one grows below about 1 m/s), so S = 2 √(0.0064 · 60 · v) for 1.75 m of height, and in
+/// proportion.
 struct GaitState {
   double phase = 0.0;  // strides, in [0, 1): 0 is the left foot's touch-down
   std::array<Foot, 2> feet;

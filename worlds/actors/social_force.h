@@ -13,7 +13,7 @@ base::Vec2 DrivingForce(const base::Vec2& v_wish, const base::Vec2& v);
 
 /// From another moving body: −∇V(b), V = V₀ exp(−b / σ), with the semi-minor axis of the ellipse that the other's next
 /// two seconds span, 2b = √((|r| + |r − v Δt|)² − |v Δt|²) (eqs. 3–4); r points from it to us, v is its velocity.
-/// What lies behind, out of the 200° of view about `facing` (unit), counts half (eq. 8). People: V₀ = 2.1 m²/s²,
+/// What lies behind, out of the 200° of view about `facing` (unit), counts half (eqs. 7 and 8). People: V₀ = 2.1 m²/s²,
 /// σ = 0.3 m.
 struct Repulsion {
   double strength = 2.1;  // V₀, m²/s²
