@@ -46,6 +46,11 @@ std::vector<base::Vec3> Waypoints(const MissionConfig& mission, const base::Tran
   return waypoints;
 }
 
+stack::Calibration CalibrationOf(const Scenario& scenario, const vehicles::VehicleModel& vehicle) {
+  return sim::TrueCalibration(scenario.config.sensors, vehicle.body(), kVehicle,
+                              scenario.config.simulation.magnetic_field);
+}
+
 std::unique_ptr<stack::NavigationStack> MakeStack(const Scenario& scenario, const RunOptions& options,
                                                   const stack::Calibration& truth, const worlds::World& world) {
   const StackMaker maker = options.stack ? options.stack : MakerOf(scenario.config.stack);
@@ -188,7 +193,7 @@ Verdict RunScenario(const Scenario& scenario, const RunOptions& options) {
   verdict.scenario = scenario.name;
   Cast cast;
   sim::SimulationParts parts = MakeParts(scenario, options);
-  cast.calibration = sim::TrueCalibration(scenario.config.sensors, parts.vehicle->body(), kVehicle);
+  cast.calibration = CalibrationOf(scenario, *parts.vehicle);
   verdict.versions = Versions(parts.renderer ? parts.renderer->Description() : "");
   verdict.numeric_class = NumericClass(verdict.versions);
   const std::shared_ptr<const worlds::World> world = parts.world;
@@ -262,8 +267,7 @@ Verdict ConcludeDeadRun(const Scenario& scenario, const std::optional<std::files
 
 sim::SimulationParts BuildParts(const Scenario& scenario, const RunOptions& options) {
   sim::SimulationParts parts = MakeParts(scenario, options);
-  parts.stack = MakeStack(scenario, options,
-                          sim::TrueCalibration(scenario.config.sensors, parts.vehicle->body(), kVehicle), *parts.world);
+  parts.stack = MakeStack(scenario, options, CalibrationOf(scenario, *parts.vehicle), *parts.world);
   return parts;
 }
 
@@ -271,8 +275,7 @@ void TryToBuild(const Scenario& scenario) {
   const auto world = MakeWorld(scenario.config.world, scenario.seed);
   const auto vehicle = MakeVehicle(scenario.config.vehicle, kVehicle);
   const auto autopilot = MakeAutopilot(scenario.config.autopilot, scenario.config.vehicle);
-  const auto stack =
-      MakeStack(scenario, {}, sim::TrueCalibration(scenario.config.sensors, vehicle->body(), kVehicle), *world);
+  const auto stack = MakeStack(scenario, {}, CalibrationOf(scenario, *vehicle), *world);
   const sim::faults::Scope scope =
       sim::faults::ScopeOf(scenario.config.sensors, *vehicle, *world, kVehicle, autopilot != nullptr, stack != nullptr);
   const sim::faults::Injector faults(scenario.config.faults, scope, scenario.seed);

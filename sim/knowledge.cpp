@@ -26,6 +26,8 @@ void Describe(base::Description& d, KnowledgeErrors& c) {
   d.Field("gate_offset_max", c.gate_offset_max,
           {.unit = "m", .meaning = "largest error of a gate's place in its plane", .min = 0});
   d.Field("gate_yaw", c.gate_yaw, {.unit = "rad", .meaning = "bound of the error of a gate's heading", .min = 0});
+  d.Field("declination", c.declination,
+          {.unit = "rad", .meaning = "of Earth's magnetic field, standard deviation", .min = 0});
   d.Check("gate_offset_max", [&c] {
     return c.gate_offset_max < c.gate_offset_min ? "is below gate_offset_min; must be at least that" : std::string();
   });
@@ -33,6 +35,11 @@ void Describe(base::Description& d, KnowledgeErrors& c) {
 
 stack::Calibration Misjudge(const stack::Calibration& truth, const KnowledgeErrors& errors, std::uint64_t seed) {
   stack::Calibration judged = truth;
+  if (judged.magnetometer) {
+    base::RandomStream declination(seed, "knowledge/calibration/declination");
+    base::Vec3& B_W = judged.magnetometer->B_W;
+    B_W = base::FromYaw(errors.declination * declination.Gaussian()) * B_W;
+  }
   if (truth.cameras.empty()) return judged;
   base::RandomStream extrinsics(seed, "knowledge/calibration/extrinsics");
   base::RandomStream eyes(seed, "knowledge/calibration/eyes");

@@ -23,7 +23,8 @@ struct KnowledgeErrors {
   double start_yaw = 0.034906585039886592;  // rad (2 deg)
   double gate_offset_min = 0.3;             // in the opening's plane, uniform between the two, m
   double gate_offset_max = 0.6;
-  double gate_yaw = 0.17453292519943295;  // uniform within ±, rad (10 deg)
+  double gate_yaw = 0.17453292519943295;      // uniform within ±, rad (10 deg)
+  double declination = 0.006981317007977318;  // of Earth's field, rad (0.4 deg, ours: the order of field models')
 };
 void Describe(base::Description& d, KnowledgeErrors& c);
 

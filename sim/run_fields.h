@@ -84,6 +84,10 @@ void Visit(const stack::BaroSample& s, Fields f) {
   f("pressure", s.pressure);
 }
 template <typename Fields>
+void Visit(const stack::MagSample& s, Fields f) {
+  f("magnetic_field", s.magnetic_field);
+}
+template <typename Fields>
 void Visit(const stack::PositionFix& s, Fields f) {
   f("X_WB", s.X_WB);
 }

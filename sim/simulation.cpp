@@ -58,6 +58,7 @@ void Describe(base::Description& d, SimulationConfig& c) {
   d.Field("link_delay", c.link_delay, {.unit = "s", .meaning = "between stack and autopilot, each way", .min = 0});
   d.Field("friction", c.surface.friction, {.unit = "1", .meaning = "Coulomb friction of all surfaces", .min = 0});
   d.Field("restitution", c.surface.restitution, {.unit = "1", .meaning = "bounce of all surfaces", .min = 0, .max = 1});
+  d.Field("magnetic_field", c.magnetic_field, {.meaning = "Earth's field at this place"});
 }
 
 Simulation::Simulation(SimulationParts parts)
@@ -70,12 +71,13 @@ Simulation::Simulation(SimulationParts parts)
       autopilot_imu_(parts_.autopilot_sensors.imu, parts_.config.step, parts_.seed,
                      parts_.vehicle_id + "/autopilot.imu"),
       autopilot_barometer_(parts_.autopilot_sensors.barometer, parts_.seed, parts_.vehicle_id + "/autopilot.barometer"),
-      wind_(*parts_.world, parts_.seed) {
+      wind_(*parts_.world, parts_.seed),
+      B_W_(FluxDensity(parts_.config.magnetic_field)) {
   if (!actors_.empty()) {
     physics_->MoveActors(actors_, {0});
     physics_->DetectContacts();
   }
-  truth_ = {{0}, {0}, physics_->state(), physics_->state()};
+  truth_ = {{0}, {0}, physics_->state(), physics_->state(), {.B_W = B_W_}};
   sensors_.Settle(truth_.at_end);
   autopilot_imu_.Settle(truth_.at_end);
   if (parts_.faults.empty()) return;
@@ -210,7 +212,8 @@ void Simulation::StepBody() {
   if (!IsFinite(after)) throw base::FaultError("numerical", "the vehicle's true state is not finite");
   const Ambience ambience{.rotors = parts_.vehicle->Rotors(),
                           .v_air_B = after.X_WB.q.conjugate() * (after.v_WB - wind_W_),
-                          .rotor_height = MeanHeight(rotor_heights_)};
+                          .rotor_height = MeanHeight(rotor_heights_),
+                          .B_W = B_W_};
   sensors_.Integrate(time_ + dt, before, after, ambience);
   autopilot_imu_.Integrate(before, after, parts_.vehicle->Rotors());
   truth_ = {time_, time_ + dt, before, after, ambience};

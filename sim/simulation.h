@@ -11,6 +11,7 @@
 #include "base/describe.h"
 #include "sim/faults/autopilot_sensors.h"
 #include "sim/faults/injector.h"
+#include "sim/magnetic_field.h"
 #include "sim/observer.h"
 #include "sim/physics_world.h"
 #include "sim/sensors/suite.h"
@@ -24,6 +25,7 @@ struct SimulationConfig {
   base::Duration step = base::Milliseconds(1);        // physics period, and the autopilot's
   base::Duration link_delay = base::Milliseconds(5);  // stack ↔ autopilot, each way
   SurfaceConfig surface;
+  MagneticFieldConfig magnetic_field;
 };
 void Describe(base::Description& d, SimulationConfig& c);
 
@@ -109,6 +111,7 @@ class Simulation {
   Barometer autopilot_barometer_;
   std::int64_t autopilot_barometer_n_ = 0;
   worlds::WindField wind_;
+  base::Vec3 B_W_;  // magnetic flux density, T
 
   base::Time time_;
   TruthWindow truth_;

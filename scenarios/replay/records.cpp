@@ -110,6 +110,8 @@ SensorNames NamesOf(const stack::Calibration& calibration) {
   if (calibration.imu) add(*calibration.imu);
   if (calibration.barometer) add(*calibration.barometer);
   if (calibration.position_reference) add(*calibration.position_reference);
+  if (calibration.gnss) add(*calibration.gnss);
+  if (calibration.magnetometer) add(*calibration.magnetometer);
   return names;
 }
 

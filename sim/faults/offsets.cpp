@@ -17,6 +17,7 @@ using Names = std::vector<std::string>;
 struct QuantitiesOf {
   Names operator()(const stack::ImuSample&) const { return {"angular_velocity", "specific_force"}; }
   Names operator()(const stack::BaroSample&) const { return {"pressure"}; }
+  Names operator()(const stack::MagSample&) const { return {"magnetic_field"}; }
   Names operator()(const stack::PositionFix&) const { return {"position", "attitude"}; }
   Names operator()(const stack::BatterySample&) const { return {"voltage", "current"}; }
   Names operator()(const stack::Image&) const { return {"brightness"}; }
@@ -37,6 +38,7 @@ struct AddTo {
     s.specific_force += k * offsets.specific_force;
   }
   void operator()(stack::BaroSample& s) const { s.pressure += k * offsets.pressure; }
+  void operator()(stack::MagSample& s) const { s.magnetic_field += k * offsets.magnetic_field; }
   void operator()(stack::PositionFix& s) const {
     s.X_WB.p += k * offsets.position;
     if (!offsets.attitude.isZero(0.0)) s.X_WB.q = (s.X_WB.q * base::Exp(k * offsets.attitude)).normalized();
@@ -89,7 +91,8 @@ void ForEach(OffsetsOrConst& c, const Function& f) {
   f({"angular_velocity", "rad/s", "of an IMU, its axes", 1e3}, c.angular_velocity);
   f({"specific_force", "m/s^2", "of an IMU, its axes", 1e4}, c.specific_force);
   f({"pressure", "Pa", "of a barometer", 5e4}, c.pressure);
-  f({"position", "m", "of a position reference, world axes", 1e5}, c.position);
+  f({"magnetic_field", "T", "of a magnetometer, its axes", 1.0}, c.magnetic_field);
+  f({"position", "m", "of a position reference or satellites, world axes", 1e5}, c.position);
   f({"attitude", "rad", "of a position reference: rotation vector, body axes", 6.3}, c.attitude);
   f({"voltage", "V", "of the battery's gauge", 1e3}, c.voltage);
   f({"current", "A", "of the battery's gauge", 1e3}, c.current);

@@ -14,6 +14,7 @@ struct Offsets {
   base::Vec3 angular_velocity = base::Vec3::Zero();  // of an IMU, its axes, rad/s
   base::Vec3 specific_force = base::Vec3::Zero();    // of an IMU, its axes, m/s²
   double pressure = 0.0;                             // of a barometer, Pa
+  base::Vec3 magnetic_field = base::Vec3::Zero();    // of a magnetometer, its axes, T
   base::Vec3 position = base::Vec3::Zero();          // of a position reference, world axes, m
   base::Vec3 attitude = base::Vec3::Zero();          // of a position reference, rotation vector in body axes, rad
   double voltage = 0.0;                              // of the battery's gauge, V

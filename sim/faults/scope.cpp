@@ -28,6 +28,8 @@ Scope ScopeOf(const SensorsConfig& sensors, const vehicles::VehicleModel& vehicl
   if (known.position_reference) {
     add(plain(known.position_reference->name), known.position_reference->sensor, stack::PositionFix{});
   }
+  if (known.gnss) add(plain(known.gnss->name), known.gnss->sensor, stack::PositionFix{});
+  if (known.magnetometer) add(plain(known.magnetometer->name), known.magnetometer->sensor, stack::MagSample{});
   add("battery", known.battery_sensor, stack::BatterySample{});
   add("status", known.status_sensor, stack::VehicleStatus{});
   if (autopilot) {

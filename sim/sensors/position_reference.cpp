@@ -12,6 +12,21 @@ void Describe(base::Description& d, PositionReferenceConfig& c) {
   d.Field("gnss", c.gnss, {.meaning = "satellites instead of motion capture: a wandering error, outages, no attitude"});
 }
 
+void Describe(base::Description& d, GnssReceiverConfig& c) {
+  d.Field("rate", c.rate, {.unit = "Hz", .meaning = "output rate"});
+  d.Field("noise", c.noise, {.unit = "m", .meaning = "standard deviation per axis, from fix to fix", .min = 0});
+  d.Field("delay", c.delay, {.unit = "s", .meaning = "from the measured instant to the stack"});
+  Describe(d, static_cast<GnssConfig&>(c));
+}
+
+PositionReferenceConfig ReferenceOf(const GnssReceiverConfig& receiver) {
+  return {.rate = receiver.rate,
+          .position_noise = receiver.noise,
+          .attitude_noise = 0.0,
+          .delay = receiver.delay,
+          .gnss = receiver};
+}
+
 PositionReference::PositionReference(const PositionReferenceConfig& config, std::uint64_t seed, const std::string& name)
     : config_(config), stream_(seed, name) {
   if (config.gnss) gnss_.emplace(*config.gnss, config.rate.Period(), seed, name);

@@ -22,6 +22,18 @@ struct PositionReferenceConfig {
 };
 void Describe(base::Description& d, PositionReferenceConfig& c);
 
+/// A receiver of satellites that flies along, besides whatever else tells the position. Defaults, chosen by us:
+/// a single-frequency receiver under open sky.
+struct GnssReceiverConfig : GnssConfig {
+  base::Rate rate{5, 1};
+  double noise = 0.1;  // 1σ per axis of what differs from fix to fix, m
+  base::Duration delay = base::Milliseconds(120);
+};
+void Describe(base::Description& d, GnssReceiverConfig& c);
+
+/// The position reference that a receiver is.
+PositionReferenceConfig ReferenceOf(const GnssReceiverConfig& receiver);
+
 class PositionReference {
  public:
   PositionReference(const PositionReferenceConfig& config, std::uint64_t seed, const std::string& name);

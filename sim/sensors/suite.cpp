@@ -9,7 +9,8 @@
 namespace alula::sim {
 namespace {
 
-constexpr stack::SensorId kImu{1}, kBarometer{2}, kPositionReference{3}, kBattery{4}, kStatus{5};
+constexpr stack::SensorId kImu{1}, kBarometer{2}, kPositionReference{3}, kBattery{4}, kStatus{5}, kMagnetometer{6},
+    kGnss{7};
 
 }  // namespace
 
@@ -21,6 +22,8 @@ void Describe(base::Description& d, SensorsConfig& c) {
   d.Field("gimbals", c.gimbals, {.meaning = "mounts that cameras may sit on"});
   d.Field("barometer", c.barometer, {.meaning = "barometer"});
   d.Field("position_reference", c.position_reference, {.meaning = "external position sensor (motion capture)"});
+  d.Field("gnss", c.gnss, {.meaning = "receiver of satellites besides the position reference"});
+  d.Field("magnetometer", c.magnetometer, {.meaning = "magnetometer"});
   d.Field("battery_rate", c.battery_rate, {.unit = "Hz", .meaning = "rate of the battery's readings"});
   d.Field("battery_noise", c.battery_noise, {.unit = "V", .meaning = "standard deviation of the voltage", .min = 0});
   d.Field("battery_gauge", c.battery_gauge, {.meaning = "what the gauge reads wrongly besides that"});
@@ -33,7 +36,7 @@ void Describe(base::Description& d, AutopilotSensorsConfig& c) {
 }
 
 stack::Calibration TrueCalibration(const SensorsConfig& config, const vehicles::VehicleBody& body,
-                                   const std::string& vehicle) {
+                                   const std::string& vehicle, const MagneticFieldConfig& field) {
   stack::Calibration calibration;
   calibration.vehicle = vehicle;
   calibration.hull_radius = body.hull_radius;
@@ -54,6 +57,16 @@ stack::Calibration TrueCalibration(const SensorsConfig& config, const vehicles::
   }
   if (config.position_reference) {
     calibration.position_reference = {.sensor = kPositionReference, .name = vehicle + "/position_reference"};
+  }
+  if (config.gnss) calibration.gnss = {.sensor = kGnss, .name = vehicle + "/gnss"};
+  if (config.magnetometer) {
+    const base::Vec3& a = config.magnetometer->orientation;
+    calibration.magnetometer = {.sensor = kMagnetometer,
+                                .name = vehicle + "/magnetometer",
+                                .q_BM = base::FromYawPitchRoll(a.x(), a.y(), a.z()),
+                                .rate = config.magnetometer->rate,
+                                .noise = config.magnetometer->noise,
+                                .B_W = FluxDensity(field)};
   }
   AddCameras(config, vehicle, calibration);
   return calibration;
@@ -79,6 +92,14 @@ SensorSuite::SensorSuite(const SensorsConfig& config, const vehicles::VehicleBod
   if (config.position_reference) {
     position_reference_.emplace(*config.position_reference, seed, vehicle + "/position_reference");
     position_clock_.rate = config.position_reference->rate;
+  }
+  if (config.gnss) {
+    gnss_.emplace(ReferenceOf(*config.gnss), seed, vehicle + "/gnss");
+    gnss_clock_.rate = config.gnss->rate;
+  }
+  if (config.magnetometer) {
+    magnetometer_.emplace(*config.magnetometer, seed, vehicle + "/magnetometer");
+    magnetometer_clock_.rate = config.magnetometer->rate;
   }
   if (HasCameras(config) || !config.gimbals.empty()) {
     if (HasCameras(config) && renderer == nullptr) throw base::FaultError("no_renderer", "cameras need a renderer");
@@ -143,6 +164,15 @@ void SensorSuite::MeasureCameras(const TruthWindow& truth) {
   for (stack::Measurement& reading : cameras_->ReadGimbals(truth.end)) Push(std::move(reading));
 }
 
+void SensorSuite::MeasurePosition(const TruthWindow& truth, stack::SensorId sensor, base::Duration delay, Clock& clock,
+                                  PositionReference& reference) {
+  while (clock.Due(truth.end)) {
+    const auto seq = static_cast<std::uint32_t>(clock.n);
+    const base::Time now = clock.Next();
+    if (const auto fix = reference.Sample(now, truth.At(now).X_WB)) Push({sensor, seq, now, now + delay, *fix});
+  }
+}
+
 void SensorSuite::Measure(const TruthWindow& truth, const OwnReports& reports) {
   MeasureInertia(truth.end);
   if (cameras_) MeasureCameras(truth);
@@ -151,12 +181,16 @@ void SensorSuite::Measure(const TruthWindow& truth, const OwnReports& reports) {
     const base::Time now = barometer_clock_.Next();
     Push({kBarometer, seq, now, now, barometer_->Sample(truth.At(now).X_WB.p.z(), truth.ambience)});
   }
-  while (position_reference_ && position_clock_.Due(truth.end)) {
-    const auto seq = static_cast<std::uint32_t>(position_clock_.n);
-    const base::Time now = position_clock_.Next();
-    if (const auto fix = position_reference_->Sample(now, truth.At(now).X_WB)) {
-      Push({kPositionReference, seq, now, now + config_.position_reference->delay, *fix});
-    }
+  if (position_reference_) {
+    MeasurePosition(truth, kPositionReference, config_.position_reference->delay, position_clock_,
+                    *position_reference_);
+  }
+  if (gnss_) MeasurePosition(truth, kGnss, config_.gnss->delay, gnss_clock_, *gnss_);
+  while (magnetometer_ && magnetometer_clock_.Due(truth.end)) {
+    const auto seq = static_cast<std::uint32_t>(magnetometer_clock_.n);
+    const base::Time now = magnetometer_clock_.Next();
+    Push({kMagnetometer, seq, now, now,
+          magnetometer_->Sample(truth.At(now).X_WB.q, truth.ambience.B_W, reports.battery.current)});
   }
   while (battery_clock_.Due(truth.end)) {
     const auto seq = static_cast<std::uint32_t>(battery_clock_.n);

@@ -10,10 +10,12 @@
 #include "base/describe.h"
 #include "sim/ambience.h"
 #include "sim/faults/fault.h"
+#include "sim/magnetic_field.h"
 #include "sim/sensors/barometer.h"
 #include "sim/sensors/battery_gauge.h"
 #include "sim/sensors/camera_suite.h"
 #include "sim/sensors/imu.h"
+#include "sim/sensors/magnetometer.h"
 #include "sim/sensors/position_reference.h"
 #include "sim/truth.h"
 #include "stack/interface/calibration.h"
@@ -30,6 +32,8 @@ struct SensorsConfig : CamerasConfig {
   std::optional<ImuConfig> imu = ImuConfig{};
   std::optional<BarometerConfig> barometer = BarometerConfig{};
   std::optional<PositionReferenceConfig> position_reference;
+  std::optional<GnssReceiverConfig> gnss{};
+  std::optional<MagnetometerConfig> magnetometer{};
   base::Rate battery_rate{10, 1};
   double battery_noise = 0.01;  // 1σ, V
   BatteryGaugeConfig battery_gauge;
@@ -44,9 +48,9 @@ struct AutopilotSensorsConfig {
 };
 void Describe(base::Description& d, AutopilotSensorsConfig& c);
 
-/// What is true of these sensors on this vehicle; sensor ids and names are given here and nowhere else.
+/// What is true of these sensors on this vehicle, in this field; sensor ids and names are given here and nowhere else.
 stack::Calibration TrueCalibration(const SensorsConfig& config, const vehicles::VehicleBody& body,
-                                   const std::string& vehicle);
+                                   const std::string& vehicle, const MagneticFieldConfig& field = {});
 
 /// What the autopilot says of itself, and the battery, at the instant of measuring.
 struct OwnReports {
@@ -103,16 +107,19 @@ class SensorSuite {
   void Push(stack::Measurement measurement, std::optional<CameraSuite::Frame> frame = std::nullopt);
   void MeasureInertia(base::Time now);
   void MeasureCameras(const TruthWindow& truth);
+  void MeasurePosition(const TruthWindow& truth, stack::SensorId sensor, base::Duration delay, Clock& clock,
+                       PositionReference& reference);
 
   SensorsConfig config_;
   base::Duration step_;
   std::optional<Imu> imu_;
   std::optional<Barometer> barometer_;
-  std::optional<PositionReference> position_reference_;
+  std::optional<PositionReference> position_reference_, gnss_;
+  std::optional<Magnetometer> magnetometer_;
   std::unique_ptr<render::CameraRenderer> twin_;  // for the second thread; outlives the cameras
   std::unique_ptr<CameraSuite> cameras_;
   base::RandomStream battery_stream_, current_stream_;
-  Clock imu_clock_, barometer_clock_, position_clock_, battery_clock_, status_clock_;
+  Clock imu_clock_, barometer_clock_, position_clock_, gnss_clock_, magnetometer_clock_, battery_clock_, status_clock_;
   std::uint32_t imu_seq_ = 0;
   std::vector<Pending> pending_;  // the last one arrives first
   faults::Injector* injector_ = nullptr;

@@ -6,11 +6,7 @@ namespace alula::sim {
 namespace {
 
 void DescribeTriad(base::Description& d, TriadErrors& c, const char* unit, const char* unit_per_kelvin) {
-  d.Field("scale", c.scale, {.meaning = "share by which each axis reads too much", .min = -0.5, .max = 0.5});
-  d.Field("misalignment", c.misalignment,
-          {.unit = "rad", .meaning = "rotation vector of the triad in the IMU's frame", .min = -0.5, .max = 0.5});
-  d.Field("nonorthogonality", c.nonorthogonality,
-          {.unit = "rad", .meaning = "x read by y, x read by z, y read by z", .min = -0.5, .max = 0.5});
+  DescribeAxes(d, c);
   d.Field("bias_per_kelvin", c.bias_per_kelvin,
           {.unit = unit_per_kelvin, .meaning = "bias per kelvin above the temperature of calibration"});
   d.Field("scale_per_kelvin", c.scale_per_kelvin,
@@ -19,6 +15,14 @@ void DescribeTriad(base::Description& d, TriadErrors& c, const char* unit, const
 }
 
 }  // namespace
+
+void DescribeAxes(base::Description& d, TriadErrors& c) {
+  d.Field("scale", c.scale, {.meaning = "share by which each axis reads too much", .min = -0.5, .max = 0.5});
+  d.Field("misalignment", c.misalignment,
+          {.unit = "rad", .meaning = "rotation vector of the triad in the sensor's frame", .min = -0.5, .max = 0.5});
+  d.Field("nonorthogonality", c.nonorthogonality,
+          {.unit = "rad", .meaning = "x read by y, x read by z, y read by z", .min = -0.5, .max = 0.5});
+}
 
 void Describe(base::Description& d, GyroErrors& c) { DescribeTriad(d, c, "rad/s", "rad/s/K"); }
 void Describe(base::Description& d, AccelerometerErrors& c) { DescribeTriad(d, c, "m/s^2", "m/s^2/K"); }

@@ -5,8 +5,8 @@
 
 namespace alula::sim {
 
-/// What is wrong with three axes that should measure a vector in the IMU frame I. Values are those of one unit; a
-/// scenario gives their spread over units as distributions ({normal: …}).
+/// What is wrong with three axes that should measure a vector in the sensor's frame (an IMU's: I). Values are those of
+/// one unit; a scenario gives their spread over units as distributions ({normal: …}).
 struct TriadErrors {
   base::Vec3 scale = base::Vec3::Zero();             // k: share by which an axis reads too much
   base::Vec3 misalignment = base::Vec3::Zero();      // m: rotation vector of the triad in I, rad
@@ -17,6 +17,8 @@ struct TriadErrors {
 };
 struct GyroErrors : TriadErrors {};           // rad/s
 struct AccelerometerErrors : TriadErrors {};  // m/s²
+/// The keys of the axes alone: scale, misalignment, nonorthogonality.
+void DescribeAxes(base::Description& d, TriadErrors& c);
 void Describe(base::Description& d, GyroErrors& c);
 void Describe(base::Description& d, AccelerometerErrors& c);
 

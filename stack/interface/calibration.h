@@ -79,6 +79,17 @@ struct BarometerCalibration {
   double noise = 0.0;  // 1σ, Pa
 };
 
+struct MagnetometerCalibration {
+  SensorId sensor{};
+  std::string name;
+  base::Quat q_BM = base::Quat::Identity();
+  base::Rate rate;
+  double noise = 0.0;  // 1σ per axis, T
+  /// Earth's field here as a model of it says (WMM), T, mission's world axes: what gives heading and declination.
+  base::Vec3 B_W = base::Vec3::Zero();
+};
+
+/// Gives PositionFix.
 struct PositionReferenceCalibration {
   SensorId sensor{};
   std::string name;
@@ -94,6 +105,8 @@ struct Calibration {
   std::optional<ImuCalibration> imu;
   std::optional<BarometerCalibration> barometer;
   std::optional<PositionReferenceCalibration> position_reference;
+  std::optional<PositionReferenceCalibration> gnss;  // a receiver of satellites: position alone
+  std::optional<MagnetometerCalibration> magnetometer;
   SensorId status_sensor{};   // VehicleStatus
   SensorId battery_sensor{};  // BatterySample
   /// Smallest sphere about the body origin that holds the hull (body and propeller discs), m.

@@ -60,6 +60,11 @@ struct BaroSample {
   double pressure = 0.0;
 };
 
+/// Magnetic flux density, T, in the magnetometer's own axes M (calibration.h has their rotation against the body).
+struct MagSample {
+  base::Vec3 magnetic_field;
+};
+
 /// Pose of the body in the world from an external reference (motion capture).
 struct PositionFix {
   base::Transform X_WB;
@@ -89,7 +94,9 @@ struct Measurement {
   std::uint32_t seq = 0;
   base::Time captured;
   base::Time available;
-  std::variant<ImuSample, Image, BaroSample, PositionFix, BatterySample, VehicleStatus, DepthImage, GimbalAngles> data;
+  std::variant<ImuSample, Image, BaroSample, PositionFix, BatterySample, VehicleStatus, DepthImage, GimbalAngles,
+               MagSample>
+      data;
 };
 
 /// The order in which measurements are handed over.

@@ -34,7 +34,7 @@ extern "C" {
 #endif
 
 /* Grows with every change that an old library would not survive. Alula refuses libraries of another version. */
-#define ALULA_STACK_ABI_VERSION 1u
+#define ALULA_STACK_ABI_VERSION 2u
 
 /* ---------------------------------------------------------------------------------------------- small things */
 
@@ -130,12 +130,23 @@ typedef struct AlulaBarometerCalibration {
   uint16_t reserved[3];
 } AlulaBarometerCalibration;
 
-/* Motion capture or the like: gives ALULA_POSITION_FIX. */
+/* Motion capture, satellites or the like: gives ALULA_POSITION_FIX. */
 typedef struct AlulaPositionReferenceCalibration {
   AlulaText name;
   uint16_t sensor;
   uint16_t reserved[3];
 } AlulaPositionReferenceCalibration;
+
+/* Axes M: gives ALULA_MAG. */
+typedef struct AlulaMagnetometerCalibration {
+  AlulaText name;
+  AlulaQuat q_BM; /* turns vectors of M into B's axes */
+  int64_t rate_cycles, rate_seconds;
+  double noise;  /* 1 sigma per axis, T */
+  AlulaVec3 B_W; /* Earth's field here as a model of it says (WMM), T */
+  uint16_t sensor;
+  uint16_t reserved[3];
+} AlulaMagnetometerCalibration;
 
 /* What a stack is told about its vehicle. It is as wrong as a real calibration is. */
 typedef struct AlulaCalibration {
@@ -147,6 +158,8 @@ typedef struct AlulaCalibration {
   const AlulaImuCalibration* imu;                              /* NULL: it has none */
   const AlulaBarometerCalibration* barometer;                  /* NULL: it has none */
   const AlulaPositionReferenceCalibration* position_reference; /* NULL: it has none */
+  const AlulaPositionReferenceCalibration* gnss;    /* a receiver of satellites: position alone; NULL: it has none */
+  const AlulaMagnetometerCalibration* magnetometer; /* NULL: it has none */
   double hull_radius;          /* smallest sphere about the body origin that holds hull and propeller discs, m */
   AlulaVec3 hull_half_extents; /* of the hull's bounding box in the body frame, m */
   double standing_height;      /* of the body origin above the ground when standing, m */
@@ -202,7 +215,8 @@ enum {
   ALULA_BATTERY = 4,        /* battery */
   ALULA_VEHICLE_STATUS = 5, /* status */
   ALULA_DEPTH_IMAGE = 6,    /* depth_image */
-  ALULA_GIMBAL_ANGLES = 7   /* gimbal */
+  ALULA_GIMBAL_ANGLES = 7,  /* gimbal */
+  ALULA_MAG = 8             /* mag */
 };
 
 /* In the IMU frame: angular velocity (rad/s) and specific force R_IW (a_WI - g_W) (m/s^2: at rest on level ground +9.81
@@ -243,6 +257,11 @@ typedef struct AlulaGimbalAngles {
 typedef struct AlulaBaroSample {
   double pressure; /* static, Pa */
 } AlulaBaroSample;
+
+/* Magnetic flux density, T, in the magnetometer's axes M. */
+typedef struct AlulaMagSample {
+  AlulaVec3 magnetic_field;
+} AlulaMagSample;
 
 /* Pose of the body in the world from an external reference. */
 typedef struct AlulaPositionFix {
@@ -290,6 +309,7 @@ typedef struct AlulaMeasurement {
     AlulaVehicleStatus status;
     AlulaDepthImage depth_image;
     AlulaGimbalAngles gimbal;
+    AlulaMagSample mag;
   } data;
 } AlulaMeasurement;
 
@@ -413,8 +433,8 @@ typedef struct AlulaTiming {
 
 /* Sizes of the structs as the library was compiled: a second look behind the version. Fill it with ALULA_LAYOUT. */
 typedef struct AlulaLayout {
-  uint32_t plugin, setup, calibration, camera, gimbal, imu, barometer, position_reference, mission, gate;
-  uint32_t measurement, output, command, estimate, event, file, stage_time, error;
+  uint32_t plugin, setup, calibration, camera, gimbal, imu, barometer, position_reference, magnetometer, mission, gate;
+  uint32_t measurement, output, command, estimate, event, file, stage_time, error, reserved;
 } AlulaLayout;
 
 /* What a library offers. `alula_stack_plugin` returns one that lives as long as the library. */
@@ -441,13 +461,13 @@ typedef struct AlulaStackPlugin {
   void (*destroy)(void* self);
 } AlulaStackPlugin;
 
-#define ALULA_LAYOUT                                                                                        \
-  {                                                                                                         \
-    sizeof(AlulaStackPlugin), sizeof(AlulaSetup), sizeof(AlulaCalibration), sizeof(AlulaCameraCalibration), \
-        sizeof(AlulaGimbalCalibration), sizeof(AlulaImuCalibration), sizeof(AlulaBarometerCalibration),     \
-        sizeof(AlulaPositionReferenceCalibration), sizeof(AlulaMission), sizeof(AlulaGateHint),             \
-        sizeof(AlulaMeasurement), sizeof(AlulaOutput), sizeof(AlulaCommand), sizeof(AlulaEstimate),         \
-        sizeof(AlulaEvent), sizeof(AlulaFile), sizeof(AlulaStageTime), sizeof(AlulaError)                   \
+#define ALULA_LAYOUT                                                                                                \
+  {                                                                                                                 \
+    sizeof(AlulaStackPlugin), sizeof(AlulaSetup), sizeof(AlulaCalibration), sizeof(AlulaCameraCalibration),         \
+        sizeof(AlulaGimbalCalibration), sizeof(AlulaImuCalibration), sizeof(AlulaBarometerCalibration),             \
+        sizeof(AlulaPositionReferenceCalibration), sizeof(AlulaMagnetometerCalibration), sizeof(AlulaMission),      \
+        sizeof(AlulaGateHint), sizeof(AlulaMeasurement), sizeof(AlulaOutput), sizeof(AlulaCommand),                 \
+        sizeof(AlulaEstimate), sizeof(AlulaEvent), sizeof(AlulaFile), sizeof(AlulaStageTime), sizeof(AlulaError), 0 \
   }
 
 /* A text of yours that ends in a zero byte, as Alula wants it. */

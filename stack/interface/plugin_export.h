@@ -32,7 +32,8 @@ namespace alula::stack::plugin {
 
 inline std::string Read(const AlulaText& t) { return {t.bytes, static_cast<std::size_t>(t.size)}; }
 inline base::Vec3 Read(const AlulaVec3& v) { return {v.x, v.y, v.z}; }
-inline base::Transform Read(const AlulaTransform& X) { return {{X.q.w, X.q.x, X.q.y, X.q.z}, Read(X.p)}; }
+inline base::Quat Read(const AlulaQuat& q) { return {q.w, q.x, q.y, q.z}; }
+inline base::Transform Read(const AlulaTransform& X) { return {Read(X.q), Read(X.p)}; }
 
 inline CameraCalibration Read(const AlulaCameraCalibration& c) {
   CameraCalibration camera;
@@ -70,6 +71,11 @@ inline Calibration Read(const AlulaCalibration& c) {
   if (c.imu != nullptr) calibration.imu = Read(*c.imu);
   if (const auto* b = c.barometer) calibration.barometer = {SensorId{b->sensor}, Read(b->name), b->noise};
   if (const auto* p = c.position_reference) calibration.position_reference = {SensorId{p->sensor}, Read(p->name)};
+  if (const auto* g = c.gnss) calibration.gnss = {SensorId{g->sensor}, Read(g->name)};
+  if (const auto* m = c.magnetometer) {
+    calibration.magnetometer = {
+        SensorId{m->sensor}, Read(m->name), Read(m->q_BM), {m->rate_cycles, m->rate_seconds}, m->noise, Read(m->B_W)};
+  }
   calibration.status_sensor = SensorId{c.status_sensor};
   calibration.battery_sensor = SensorId{c.battery_sensor};
   calibration.hull_radius = c.hull_radius;
@@ -136,6 +142,8 @@ inline Measurement Read(const AlulaMeasurement& m) {
         return Read(d.depth_image);
       case ALULA_GIMBAL_ANGLES:
         return GimbalAngles{d.gimbal.roll, d.gimbal.pitch, d.gimbal.yaw};
+      case ALULA_MAG:
+        return MagSample{Read(d.mag.magnetic_field)};
       default:
         throw std::runtime_error("a measurement of the unknown kind " + std::to_string(m.kind));
     }

@@ -31,6 +31,7 @@ faults::Scope Everything() {
   add("imu", stack::ImuSample{});
   add("barometer", stack::BaroSample{});
   add("position_reference", stack::PositionFix{});
+  add("magnetometer", stack::MagSample{});
   add("battery", stack::BatterySample{});
   add("status", stack::VehicleStatus{});
   add("gimbal.0", stack::GimbalAngles{});

@@ -64,7 +64,8 @@ struct FaultyFlight {
   }
 };
 
-inline constexpr stack::SensorId kImu{1}, kBarometer{2}, kPositionReference{3}, kBattery{4}, kStatus{5};
+inline constexpr stack::SensorId kImu{1}, kBarometer{2}, kPositionReference{3}, kBattery{4}, kStatus{5},
+    kMagnetometer{6}, kGnss{7};
 
 class RigAutopilot : public vehicles::Autopilot {
  public:
@@ -135,6 +136,8 @@ inline FaultyFlight Fly(const std::string& faults, const RigChoices& choices = {
   parts.autopilot = std::make_unique<RigAutopilot>(flight);
   parts.stack = std::make_unique<RigStack>(flight, choices.stack_declares);
   parts.sensors.position_reference = PositionReferenceConfig{};
+  parts.sensors.magnetometer = MagnetometerConfig{};
+  parts.sensors.gnss = GnssReceiverConfig{};
   parts.observers = {&watcher};
   parts.seed = choices.seed;
   parts.faults = Read(faults);

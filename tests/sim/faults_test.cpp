@@ -143,6 +143,46 @@ TEST(Faults, ABiasIsExactlyWhatIsAdded) {
   }
 }
 
+TEST(Faults, TheyActOnTheMagnetometerAsOnEverySensor) {
+  const auto field = [](const Measurement& m) { return std::get<stack::MagSample>(m.data).magnetic_field; };
+  const auto good = Fly("[]").Of(testing::kMagnetometer);
+  ASSERT_EQ(good.size(), 30U);  // 50 Hz for 600 ms
+  const auto off = Fly("[{type: bias, sensor: magnetometer, magnetic_field: [1, -2, 3] uT, at: 200 ms}]");
+  const auto frozen = Fly("[{type: freeze, sensor: magnetometer, at: 200 ms}]").Of(testing::kMagnetometer);
+  const auto dropped = Fly("[{type: drop, sensor: magnetometer, at: 200 ms}]").Of(testing::kMagnetometer);
+  const auto late = Fly("[{type: delay, sensor: magnetometer, by: 40 ms, at: 200 ms}]").Of(testing::kMagnetometer);
+  const auto spiky = Fly("[{type: spike, sensor: magnetometer, magnetic_field: [0, 0, 50] uT, share: 1, at: 200 ms}]");
+  const auto biased = off.Of(testing::kMagnetometer), struck = spiky.Of(testing::kMagnetometer);
+  ASSERT_EQ(biased.size(), 30U);
+  ASSERT_EQ(frozen.size(), 30U);
+  ASSERT_EQ(struck.size(), 30U);
+  EXPECT_EQ(dropped.size(), 10U);
+  EXPECT_EQ(late.size(), 28U);
+  for (std::size_t i = 0; i < 30; ++i) {
+    const bool acts = i >= 10;
+    const Vec3 added = acts ? Vec3(1e-6, -2e-6, 3e-6) : Vec3(0, 0, 0);
+    EXPECT_LT((field(biased[i]) - field(good[i]) - added).norm(), 1e-19);
+    EXPECT_EQ(field(frozen[i]), field(good[acts ? 9 : i]));
+    EXPECT_NEAR(std::abs(field(struck[i]).z() - field(good[i]).z()), acts ? 50e-6 : 0.0, 1e-19);
+  }
+  for (std::size_t i = 0; i < late.size(); ++i) {
+    EXPECT_EQ((late[i].available - late[i].captured).ns, i >= 10 ? 40'000'000 : 0);
+  }
+}
+
+TEST(Faults, ABiasOnSatellitesLeavesTheOtherReferenceAlone) {
+  const std::string list = "[{type: bias, sensor: gnss, position: [10, 0, 0] m, at: 0 s}]";
+  const FaultyFlight good = Fly("[]"), bad = Fly(list);
+  const auto place = [](const Measurement& m) { return std::get<stack::PositionFix>(m.data).X_WB.p; };
+  const auto g = good.Of(testing::kGnss), b = bad.Of(testing::kGnss);
+  ASSERT_EQ(g.size(), b.size());
+  EXPECT_EQ(g.size(), 3U);  // 5 Hz, 120 ms on its way
+  for (std::size_t i = 0; i < g.size(); ++i) EXPECT_LT((place(b[i]) - place(g[i]) - Vec3(10, 0, 0)).norm(), 1e-12);
+  const auto other_good = good.Of(testing::kPositionReference), other_bad = bad.Of(testing::kPositionReference);
+  ASSERT_EQ(other_good.size(), other_bad.size());
+  for (std::size_t i = 0; i < other_good.size(); ++i) EXPECT_EQ(place(other_good[i]), place(other_bad[i]));
+}
+
 TEST(Faults, SpikesStrikeAShareToBothSidesAndLeaveTheRest) {
   const FaultyFlight good = Fly("[]", {.steps = 8000});
   const FaultyFlight bad =
@@ -352,6 +392,8 @@ TEST(Faults, WhatDoesNotFitIsRefusedWithItsPlace) {
        "f.yaml:1:31: faults.0.sensor: nothing is added to `imu`; give angular_velocity, specific_force"},
       {"[{type: bias, sensor: imu, angular_velocity: [1, 0, 0] rad/s, pressure: 1 Pa, at: 1 s}]",
        "f.yaml:1:31: faults.0.sensor: `pressure` is nothing that imu measures; drop it"},
+      {"[{type: bias, sensor: magnetometer, pressure: 1 Pa, at: 1 s}]",
+       "f.yaml:1:31: faults.0.sensor: nothing is added to `magnetometer`; give magnetic_field"},
       {"[{type: bias, sensor: status, pressure: 1 Pa, at: 1 s}]", "`status` measures nothing that could be shifted"},
       {"[{type: lens, sensor: imu, obscured: 0.5, at: 1 s}]", "`imu` has no lens that could be obscured"},
       {"[{type: lens, sensor: imu, at: 1 s}]", "faults.0.obscured: nothing lies on the lens; give obscured or smudged"},

@@ -50,6 +50,29 @@ TEST(Knowledge, ErrorsHaveTheSizeAskedFor) {
   EXPECT_NEAR(std::sqrt(offset / n) / errors.time_offset.Seconds(), 1.0, 0.06);
 }
 
+// 2000 seeds leave 1.6 % of an RMS.
+TEST(Knowledge, TheFieldThatIsToldHasAnotherDeclination) {
+  SensorsConfig sensors;
+  sensors.magnetometer = MagnetometerConfig{.orientation = {0.3, 0.0, 0.0}};
+  const MagneticFieldConfig field{.intensity = 50e-6, .inclination = 1.0, .declination = 0.1};
+  const stack::Calibration truth = TrueCalibration(sensors, testing::PlateOnLegs(), "vehicle0", field);
+  ASSERT_TRUE(truth.magnetometer);
+  EXPECT_EQ(truth.magnetometer->name, "vehicle0/magnetometer");
+  EXPECT_EQ(truth.magnetometer->B_W, FluxDensity(field));
+  EXPECT_NEAR(base::Yaw(truth.magnetometer->q_BM), 0.3, 1e-12);
+  const auto declination = [](const base::Vec3& B_W) { return std::atan2(B_W.x(), B_W.y()); };
+  const KnowledgeErrors errors;
+  double squares = 0.0;
+  constexpr int n = 2000;
+  for (int seed = 1; seed <= n; ++seed) {
+    const base::Vec3 B_W = Misjudge(truth, errors, static_cast<std::uint64_t>(seed)).magnetometer->B_W;
+    EXPECT_NEAR(B_W.norm(), 50e-6, 1e-18);
+    EXPECT_NEAR(B_W.z(), truth.magnetometer->B_W.z(), 1e-18);
+    squares += std::pow(declination(B_W) - 0.1, 2);
+  }
+  EXPECT_NEAR(std::sqrt(squares / n) / errors.declination, 1.0, 0.064);
+}
+
 TEST(Knowledge, GateHintsAreWrongInTheirPlaneOnly) {
   worlds::World world = testing::GroundAndCrate();
   world.gates.push_back({"gate0", {base::FromYaw(0.7), {3, 1, 1.5}}, 1.4, 0.15});
@@ -77,7 +100,8 @@ TEST(Knowledge, NoErrorsAskedForMeansTheTruth) {
           .start_yaw = 0,
           .gate_offset_min = 0,
           .gate_offset_max = 0,
-          .gate_yaw = 0};
+          .gate_yaw = 0,
+          .declination = 0};
   const stack::Calibration judged = Misjudge(Truth(), none, 3);
   EXPECT_LT((judged.cameras[1].X_BC.p - Truth().cameras[1].X_BC.p).norm(), 1e-15);
   const worlds::World world = testing::GroundAndCrate();

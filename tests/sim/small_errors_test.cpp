@@ -97,6 +97,17 @@ TEST(Gnss, AnOutageShiftsNothingElse) {
   EXPECT_LT(lost, 1300);
 }
 
+TEST(Gnss, AReceiverIsAPositionReferenceOfItsOwn) {
+  GnssReceiverConfig receiver;
+  receiver.horizontal = 3.0;
+  const PositionReferenceConfig reference = ReferenceOf(receiver);
+  EXPECT_EQ(reference.rate.Hz(), 5.0);
+  EXPECT_EQ(reference.position_noise, receiver.noise);
+  EXPECT_EQ(reference.delay, receiver.delay);
+  ASSERT_TRUE(reference.gnss.has_value());
+  EXPECT_EQ(reference.gnss->horizontal, 3.0);
+}
+
 TEST(BatteryGauge, ScaleOffsetAndQuantum) {
   const BatteryGaugeConfig c{.voltage_scale = 0.01,
                              .voltage_offset = -0.1,

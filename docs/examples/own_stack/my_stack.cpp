@@ -33,7 +33,8 @@ class MyStack {
  public:
   // Calibration and mission say what is known before the flight; take what you need, and refuse what you cannot fly.
   explicit MyStack(const AlulaSetup& setup)
-      : waypoints_(setup.mission->waypoints, setup.mission->waypoints + setup.mission->waypoint_count) {}
+      : position_sensor_(setup.calibration->position_reference->sensor),
+        waypoints_(setup.mission->waypoints, setup.mission->waypoints + setup.mission->waypoint_count) {}
 
   // Called every millisecond of simulated time with what the sensors have delivered since the last call.
   void Step(int64_t now, const AlulaMeasurement* measurements, uint64_t count, AlulaOutput& output) {
@@ -42,7 +43,7 @@ class MyStack {
     for (uint64_t i = 0; i < count; ++i) {
       const AlulaMeasurement& m = measurements[i];
       if (m.kind == ALULA_VEHICLE_STATUS) status_ = m.data.status;
-      if (m.kind == ALULA_POSITION_FIX) {
+      if (m.kind == ALULA_POSITION_FIX && m.sensor == position_sensor_) {  // and not the fixes of satellites
         Estimate(m);
         output.estimate = &estimate_;  // the autopilot flies on it: send one as often as you can
       }
@@ -150,6 +151,7 @@ class MyStack {
     events_.push_back({now, alula_text(kind), alula_text(text)});
   }
 
+  uint16_t position_sensor_;
   std::vector<AlulaVec3> waypoints_;
   uint32_t state_ = ALULA_INITIALISING;
   AlulaVehicleStatus status_{};

@@ -24,7 +24,8 @@ static_assert(ALULA_MODE_LANDING == static_cast<int>(stack::VehicleStatus::Mode:
 
 AlulaText Write(const std::string& text) { return {text.c_str(), text.size()}; }
 AlulaVec3 Write(const base::Vec3& v) { return {v.x(), v.y(), v.z()}; }
-AlulaTransform Write(const base::Transform& X) { return {{X.q.w(), X.q.x(), X.q.y(), X.q.z()}, Write(X.p)}; }
+AlulaQuat Write(const base::Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+AlulaTransform Write(const base::Transform& X) { return {Write(X.q), Write(X.p)}; }
 std::uint16_t Write(stack::SensorId id) { return static_cast<std::uint16_t>(id); }
 
 AlulaCameraCalibration Write(const stack::CameraCalibration& camera) {
@@ -68,6 +69,10 @@ AlulaImuCalibration Write(const stack::ImuCalibration& imu) {
           imu.noise.accelerometer_range,
           Write(imu.sensor),
           {}};
+}
+
+AlulaMagnetometerCalibration Write(const stack::MagnetometerCalibration& m) {
+  return {Write(m.name), Write(m.q_BM), m.rate.cycles, m.rate.seconds, m.noise, Write(m.B_W), Write(m.sensor), {}};
 }
 
 AlulaGateHint Write(const stack::GateHint& gate) { return {Write(gate.name), Write(gate.X_WG), gate.opening}; }
@@ -116,6 +121,10 @@ struct DataWriter {
     m.kind = ALULA_GIMBAL_ANGLES;
     m.data.gimbal = {s.roll, s.pitch, s.yaw};
   }
+  void operator()(const stack::MagSample& s) const {
+    m.kind = ALULA_MAG;
+    m.data.mag = {Write(s.magnetic_field)};
+  }
 };
 
 }  // namespace
@@ -141,6 +150,14 @@ Given::Given(const stack::Calibration& calibration, const stack::Mission& missio
   if (const auto& reference = calibration_.position_reference) {
     position_reference_ = {Write(reference->name), Write(reference->sensor), {}};
     c.position_reference = &position_reference_;
+  }
+  if (const auto& gnss = calibration_.gnss) {
+    gnss_ = {Write(gnss->name), Write(gnss->sensor), {}};
+    c.gnss = &gnss_;
+  }
+  if (calibration_.magnetometer) {
+    magnetometer_ = Write(*calibration_.magnetometer);
+    c.magnetometer = &magnetometer_;
   }
   c.hull_radius = calibration_.hull_radius;
   c.hull_half_extents = Write(calibration_.hull_half_extents);

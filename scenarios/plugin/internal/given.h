@@ -27,7 +27,8 @@ class Given {
   std::vector<AlulaGimbalCalibration> gimbals_;
   AlulaImuCalibration imu_{};
   AlulaBarometerCalibration barometer_{};
-  AlulaPositionReferenceCalibration position_reference_{};
+  AlulaPositionReferenceCalibration position_reference_{}, gnss_{};
+  AlulaMagnetometerCalibration magnetometer_{};
   std::vector<AlulaGateHint> gates_;
   std::vector<AlulaVec3> waypoints_;
   AlulaCalibration c_calibration_{};

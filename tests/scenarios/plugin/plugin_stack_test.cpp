@@ -146,7 +146,7 @@ TEST(PluginStack, LibrariesThatAreNoneAreRefused) {
 TEST(PluginStack, LibrariesOfAnotherAbiAreRefused) {
   EXPECT_EQ(Refusal(kSilent + "version.so"),
             "stack.library: `" + kSilent +
-                "version.so` was built for version 2 of plugin.h; this Alula speaks version 1: build it again with "
+                "version.so` was built for version 3 of plugin.h; this Alula speaks version 2: build it again with "
                 "stack/interface/plugin.h of this one");
   EXPECT_NE(Refusal(kSilent + "layout.so").find("lays out the structs of plugin.h differently"), std::string::npos);
   EXPECT_NE(Refusal(kSilent + "step.so").find("has no `step` in its table"), std::string::npos);

@@ -38,6 +38,7 @@ ALULA_FIELDS(Image, a, b, c, d, e, f, g, h)
 ALULA_FIELDS(DepthImage, a, b, c, d, e)
 ALULA_FIELDS(GimbalAngles, a, b, c)
 ALULA_FIELDS(BaroSample, a)
+ALULA_FIELDS(MagSample, a)
 ALULA_FIELDS(PositionFix, a, b, c)
 ALULA_FIELDS(BatterySample, a, b)
 ALULA_FIELDS(VehicleStatus, a, b, c, d, e)
@@ -49,7 +50,8 @@ ALULA_FIELDS(ImuNoise, a, b, c, d, e, f, g, h)
 ALULA_FIELDS(ImuCalibration, a, b, c, d, e)
 ALULA_FIELDS(BarometerCalibration, a, b, c)
 ALULA_FIELDS(PositionReferenceCalibration, a, b)
-ALULA_FIELDS(Calibration, a, b, c, d, e, f, g, h, i, j, k, l)
+ALULA_FIELDS(MagnetometerCalibration, a, b, c, d, e, f)
+ALULA_FIELDS(Calibration, a, b, c, d, e, f, g, h, i, j, k, l, m, n)
 ALULA_FIELDS(GateHint, a, b, c)
 ALULA_FIELDS(Mission, a, b, c, d, e, f, g, h, i, j, k)
 ALULA_FIELDS(PositionSetpoint, a, b, c, d, e)
@@ -99,8 +101,9 @@ class Filler {
     }
   }
   void Fill(std::string& text) { text = "text " + std::to_string(random_.Bits()); }
+  void Fill(base::Quat& q) { q = base::Exp(base::Vec3(random_.Gaussian(), random_.Gaussian(), random_.Gaussian())); }
   void Fill(base::Transform& X) {
-    X.q = base::Exp(base::Vec3(random_.Gaussian(), random_.Gaussian(), random_.Gaussian()));
+    Fill(X.q);
     Fill(X.p);
   }
   void Fill(base::Vec3& m) { FillMatrix(m); }
@@ -159,6 +162,7 @@ struct Equality {
   bool operator()(const base::Vec3& a, const base::Vec3& b) const { return a == b; }
   bool operator()(const base::Mat3& a, const base::Mat3& b) const { return a == b; }
   bool operator()(const base::Mat6& a, const base::Mat6& b) const { return a == b; }
+  bool operator()(const base::Quat& a, const base::Quat& b) const { return a.coeffs() == b.coeffs(); }
   bool operator()(const base::Transform& a, const base::Transform& b) const {
     return a.p == b.p && a.q.coeffs() == b.q.coeffs();
   }
@@ -198,7 +202,7 @@ std::vector<Variant> Alternatives() {
 
 TEST(PluginRoundTrip, EveryKindOfMeasurement) {
   using Data = decltype(Measurement::data);
-  static_assert(std::variant_size_v<Data> == 8, "plugin.h has eight kinds of measurements");
+  static_assert(std::variant_size_v<Data> == 9, "plugin.h has nine kinds of measurements");
   Filler filler;
   std::vector<AlulaMeasurement> written;
   for (int round = 0; round < kRounds; ++round) {

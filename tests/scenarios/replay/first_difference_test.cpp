@@ -154,6 +154,20 @@ TEST(FirstDifference, ASensorThatOneRunLacks) {
   EXPECT_FALSE(found.first->b);
 }
 
+TEST(FirstDifference, TheFieldThatTheMagnetometerReads) {
+  RunCase a = Hover({Limit("0.5 s")});
+  a.scenario.config.sensors.magnetometer = sim::MagnetometerConfig{};
+  RunCase b = a;
+  b.scenario.config.simulation.magnetic_field.declination += 0.1;
+  const RunComparison found = CompareRuns(a, b);
+  ASSERT_EQ(found.config.size(), 1U);
+  EXPECT_EQ(found.config[0].path, "simulation.magnetic_field.declination");
+  ASSERT_TRUE(found.first);
+  EXPECT_EQ(found.first->time, Time{});
+  EXPECT_EQ(found.first->record, "vehicle0/magnetometer seq 0");
+  EXPECT_EQ(found.first->field, "magnetic_field.x");
+}
+
 TEST(FirstDifference, AnImage) {
   const auto flight = [](const char* highest) {
     const std::vector<base::Override> overrides{Limit("0.2 s"), {"world.sun_elevation_max", highest}};

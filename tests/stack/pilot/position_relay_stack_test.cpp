@@ -60,6 +60,8 @@ TEST(PositionRelayStack, FliesItsWaypointsAndLands) {
     toy.status.ready_to_arm = now > Time{1'000'000'000};
     if (now.ns % 20'000'000 == 0) {
       measurements.push_back({SensorId{5}, 0, now, now, PositionFix{{base::Quat::Identity(), toy.p}, 0.01, 0.01}});
+      // Satellites, which the stack leaves alone.
+      measurements.push_back({SensorId{7}, 0, now, now, PositionFix{{base::Quat::Identity(), {9, 9, 9}}, 3.0, 1e3}});
       measurements.push_back({SensorId{6}, 0, now, now, toy.status});
     }
     const StackOutput output = stack->Step(now, measurements);
