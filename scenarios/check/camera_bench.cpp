@@ -64,7 +64,9 @@ Rig Isolate(const Rig& rig, const CameraGroup& group) {
   sim::SensorsConfig& sensors = bench.sensors;
   sensors.imu.reset();
   sensors.barometer.reset();
+  sensors.magnetometer.reset();
   sensors.position_reference.reset();
+  sensors.gnss.reset();
   sensors.battery_rate = sensors.status_rate = {1, 1};
   using Kind = CameraGroup::Kind;
   if (group.kind != Kind::kStereo) sensors.stereo.reset();

@@ -24,7 +24,9 @@ struct Reading {
 Rig GimbalsOnly(const Rig& rig) {
   Rig bench = WithoutCamerasAndImu(rig);
   bench.sensors.barometer.reset();
+  bench.sensors.magnetometer.reset();
   bench.sensors.position_reference.reset();
+  bench.sensors.gnss.reset();
   bench.sensors.battery_rate = bench.sensors.status_rate = {1, 1};
   return bench;
 }

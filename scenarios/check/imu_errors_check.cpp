@@ -1,12 +1,12 @@
 #include "scenarios/check/imu_errors_check.h"
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "scenarios/check/inertia_check.h"
 #include "scenarios/check/statistics.h"
+#include "scenarios/check/triad_fit.h"
 
 namespace alula::scenarios::check {
 namespace {
@@ -17,68 +17,6 @@ using base::Vec3;
 constexpr const char* kName = "vehicle0/imu";
 constexpr const char* kAxes[] = {"x", "y", "z"};
 constexpr double kOven = 20.0;  // K above and below calibration
-
-/// reading = M v + G f + b of one triad.
-struct TriadFit {
-  Vec3 scale, misalignment, nonorthogonality, bias;
-  Mat3 G;
-  double axes_sigma = 0.0, G_sigma = 0.0, bias_sigma = 0.0;
-};
-
-/// M = diag(1 + k) (I + L) Exp(m)ᵀ: Mᵀ is a rotation times an upper triangle.
-void TakeApart(const Mat3& M, TriadFit& fit) {
-  const Eigen::HouseholderQR<Mat3> qr(M.transpose());
-  Mat3 U = qr.matrixQR().triangularView<Eigen::Upper>();
-  const Vec3 sign = U.diagonal().cwiseSign();
-  U = sign.asDiagonal() * U;
-  const Mat3 Q = Mat3(qr.householderQ()) * sign.asDiagonal();
-  fit.scale = U.diagonal() - Vec3::Ones();
-  fit.misalignment = base::Log(base::Quat(Q));
-  fit.nonorthogonality = {U(0, 1) / U(1, 1), U(0, 2) / U(2, 2), U(1, 2) / U(2, 2)};
-}
-
-/// `with_force`: the readings may hold a share of specific force (a gyro's); otherwise v is the force itself.
-TriadFit Fit(const std::vector<Vec3>& v, const std::vector<Vec3>& f, const std::vector<Vec3>& read, bool with_force) {
-  const auto n = static_cast<Eigen::Index>(v.size());
-  const Eigen::Index columns = with_force ? 7 : 4;
-  Eigen::MatrixXd A = Eigen::MatrixXd::Ones(n, columns);
-  Eigen::MatrixX3d b(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    A.block<1, 3>(i, 0) = v[k].transpose();
-    if (with_force) A.block<1, 3>(i, 3) = f[k].transpose();
-    b.row(i) = read[k].transpose();
-  }
-  TriadFit fit;
-  fit.G.setZero();
-  Mat3 M;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Solution s = LeastSquares(A, b.col(axis));
-    M.row(axis) = s.x.head<3>().transpose();
-    if (with_force) fit.G.row(axis) = s.x.segment<3>(3).transpose();
-    fit.bias[axis] = s.x[columns - 1];
-    fit.axes_sigma = std::max(fit.axes_sigma, s.sigma.head<3>().maxCoeff());
-    if (with_force) fit.G_sigma = std::max(fit.G_sigma, s.sigma.segment<3>(3).maxCoeff());
-    fit.bias_sigma = std::max(fit.bias_sigma, s.sigma[columns - 1]);
-  }
-  TakeApart(M, fit);
-  return fit;
-}
-
-/// Smallest step between different readings of an axis; rounding lies far below 1e-9 of either unit.
-double LeastStep(const std::vector<Vec3>& read) {
-  double least = INFINITY;
-  for (int axis = 0; axis < 3; ++axis) {
-    std::vector<double> values;
-    for (const Vec3& r : read) values.push_back(r[axis]);
-    std::sort(values.begin(), values.end());
-    for (std::size_t i = 1; i < values.size(); ++i) {
-      const double step = values[i] - values[i - 1];
-      if (step > 1e-9) least = std::min(least, step);
-    }
-  }
-  return least;
-}
 
 struct ShakenFit {
   TriadFit gyro, accelerometer;
@@ -99,21 +37,9 @@ ShakenFit FitShaken(const Rig& bench, const sim::ImuConfig& claimed) {
     gyro.push_back(sample->angular_velocity);
     accelerometer.push_back(sample->specific_force);
   });
-  return {Fit(w, f, gyro, true), Fit(f, f, accelerometer, false), LeastStep(gyro), LeastStep(accelerometer)};
-}
-
-/// `least`: what the bench's own motion model leaves (half a step of rotation between mean force and last attitude).
-void AddTriad(const std::string& what, const sim::TriadErrors& claimed, const TriadFit& found, double least,
-              Report& report) {
-  constexpr const char* kPairs[] = {"x in y", "x in z", "y in z"};
-  const double tolerance = least + kSigmas * found.axes_sigma;
-  for (int i = 0; i < 3; ++i) {
-    report.Add(Compare(kName, what + " scale " + kAxes[i], claimed.scale[i], found.scale[i], tolerance, "1"));
-    report.Add(Compare(kName, what + " misalignment " + kAxes[i], claimed.misalignment[i] / kDegree,
-                       found.misalignment[i] / kDegree, tolerance / kDegree, "deg"));
-    report.Add(Compare(kName, what + " nonorthogonality, " + kPairs[i], claimed.nonorthogonality[i] / kDegree,
-                       found.nonorthogonality[i] / kDegree, 2.0 * tolerance / kDegree, "deg"));
-  }
+  // Rounding of the arithmetic lies far below 1e-9 of either unit.
+  return {FitTriad(w, f, gyro, true), FitTriad(f, f, accelerometer, false), LeastStep(gyro, 1e-9),
+          LeastStep(accelerometer, 1e-9)};
 }
 
 void AddStep(const std::string& what, double claimed, double step, const char* unit, Report& report) {
@@ -263,8 +189,9 @@ void CheckImuErrors(const Rig& rig, const sim::ImuConfig& claimed, Report& repor
   noise.gyro_noise = noise.accelerometer_noise = noise.gyro_bias_walk = noise.accelerometer_bias_walk = 0.0;
   const ShakenFit shaken = FitShaken(bench, claimed);
   const sim::ImuErrors& said = *claimed.errors;
-  AddTriad("gyro", said.gyro, shaken.gyro, 5e-5, report);
-  AddTriad("accelerometer", said.accelerometer, shaken.accelerometer, 2e-4, report);
+  // Half a step of rotation lies between mean force and last attitude.
+  AddAxes(kName, "gyro", said.gyro, shaken.gyro, 5e-5, report);
+  AddAxes(kName, "accelerometer", said.accelerometer, shaken.accelerometer, 2e-4, report);
   for (int i = 0; i < 3; ++i) {
     for (int k = 0; k < 3; ++k) {
       report.Add(Compare(kName, std::string("g-sensitivity of gyro ") + kAxes[i] + " to " + kAxes[k],

@@ -21,7 +21,7 @@ void Record(const Rig& rig, render::CameraRenderer* renderer, const Motion& moti
             const Sink& sink, const std::vector<Turn>& turns) {
   sim::SensorSuite suite(rig.sensors, rig.body, rig.step, rig.seed, kVehicle, renderer, 1);
   const sim::OwnReports reports{rig.battery, {}, {}};
-  const sim::Ambience ambience{rig.rotors, rig.v_air_B, rig.rotor_height};
+  const sim::Ambience ambience{rig.rotors, rig.v_air_B, rig.rotor_height, rig.B_W};
   sim::TruthWindow truth{{0}, {0}, motion({0}), motion({0}), ambience};
   suite.Settle(truth.at_end);
   std::vector<stack::Measurement> arrived;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "render/camera_renderer.h"
+#include "sim/magnetic_field.h"
 #include "sim/sensors/suite.h"
 #include "stack/interface/command.h"
 #include "stack/interface/measurement.h"
@@ -30,6 +31,7 @@ struct Rig {
   std::vector<vehicles::RotorState> rotors;  // turning on the bench, one after another of the vehicle's
   base::Vec3 v_air_B = base::Vec3::Zero();   // a fan before the bench, m/s
   double rotor_height = std::numeric_limits<double>::infinity();  // above a floor, m
+  base::Vec3 B_W = sim::FluxDensity({});                          // magnetic field about the bench, T
   stack::BatterySample battery{.voltage = 12.0, .current = 1.0};
 };
 

@@ -8,6 +8,7 @@
 #include "scenarios/check/imu_errors_check.h"
 #include "scenarios/check/inertia_check.h"
 #include "scenarios/check/lens_check.h"
+#include "scenarios/check/magnetometer_check.h"
 #include "scenarios/check/photon_transfer_check.h"
 #include "scenarios/check/shutter_check.h"
 #include "scenarios/check/small_errors_check.h"
@@ -21,6 +22,9 @@ Rig WithoutErrors(Rig rig) {
   if (rig.sensors.imu) rig.sensors.imu->errors.reset();
   if (rig.sensors.barometer) rig.sensors.barometer->drift = 0.0;
   if (rig.sensors.position_reference) rig.sensors.position_reference->gnss.reset();
+  if (auto& gnss = rig.sensors.gnss) {
+    static_cast<sim::GnssConfig&>(*gnss) = {.horizontal = 0.0, .vertical = 0.0, .outages = {}};
+  }
   rig.sensors.battery_gauge = {};
   return rig;
 }
@@ -82,6 +86,15 @@ Report CheckSensors(const Rig& rig, const sim::SensorsConfig& claimed, const Tol
     CheckPositionReference(plain, *claimed.position_reference, report);
     told("position reference: satellites");
     CheckGnss(rig, *claimed.position_reference, report);
+  }
+  if (claimed.gnss) {
+    told("satellites");
+    CheckGnssReceiver(plain, *claimed.gnss, report);
+    CheckGnss(rig, *claimed.gnss, report);
+  }
+  if (claimed.magnetometer) {
+    told("magnetometer");
+    CheckMagnetometer(rig, *claimed.magnetometer, report);
   }
   told("battery");
   CheckBattery(plain, claimed, report);

@@ -12,7 +12,6 @@ namespace {
 using base::Vec3;
 
 constexpr const char* kBarometer = "vehicle0/barometer";
-constexpr const char* kPosition = "vehicle0/position_reference";
 constexpr const char* kBattery = "vehicle0/battery";
 // Correlation times in a record: sigma of a Gauss–Markov process to 1/√n = 3 %, its correlation time to √(2/n) = 4.5 %.
 constexpr double kCorrelationTimes = 1000.0;
@@ -21,6 +20,7 @@ constexpr double kCorrelationTimes = 1000.0;
 Rig Alone(const Rig& rig, base::Rate rate) {
   Rig bench = WithoutCamerasAndImu(rig);
   bench.sensors.gimbals.clear();
+  bench.sensors.magnetometer.reset();
   bench.sensors.battery_rate = bench.sensors.status_rate = {1, 60};
   bench.step = base::Seconds(rate.Period());
   return bench;
@@ -66,6 +66,7 @@ void AddWandering(const char* name, const std::string& what, double sigma, doubl
 Rig QuietBarometer(const Rig& rig, base::Rate rate) {
   Rig bench = Alone(rig, rate);
   bench.sensors.position_reference.reset();
+  bench.sensors.gnss.reset();
   bench.sensors.barometer->noise = bench.sensors.barometer->weather_sigma = 0.0;
   return bench;
 }
@@ -110,23 +111,9 @@ void AddAir(const Rig& still, const sim::BarometerConfig& claimed, Report& repor
                      (FirstPressure(floor) - calm) / (kLoading / 64.0), 1e-9, "1"));
 }
 
-}  // namespace
-
-void CheckBarometerErrors(const Rig& rig, const sim::BarometerConfig& claimed, Report& report) {
-  const sim::BarometerConfig& built = *rig.sensors.barometer;
-  Rig bench = QuietBarometer(rig, claimed.rate);
-  if (claimed.drift > 0.0 || built.drift > 0.0) AddDrift(bench, claimed, report);
-  bench.sensors.barometer->drift = 0.0;
-  AddAir(bench, claimed, report);
-}
-
-void CheckGnss(const Rig& rig, const sim::PositionReferenceConfig& claimed, Report& report) {
-  if (!claimed.gnss) return;
-  const sim::GnssConfig& said = *claimed.gnss;
-  Rig bench = Alone(rig, claimed.rate);
-  bench.sensors.barometer.reset();
-  bench.sensors.position_reference->position_noise = 0.0;
-  const double period = claimed.rate.Period(), span = kCorrelationTimes * said.correlation_time;
+/// `bench`: with the one source of fixes alone, without white noise.
+void AddSatellites(const Rig& bench, const char* name, base::Rate rate, const sim::GnssConfig& said, Report& report) {
+  const double period = rate.Period(), span = kCorrelationTimes * said.correlation_time;
   std::vector<std::uint32_t> seq;
   std::vector<double> x, y, z;
   double sigma = NAN, in_outages = 0.0, planned = 0.0;
@@ -145,26 +132,53 @@ void CheckGnss(const Rig& rig, const sim::PositionReferenceConfig& claimed, Repo
     sigma = fix->attitude_sigma;
   });
   if (seq.size() < 100) {
-    report.Add(Compare(kPosition, "fixes", span / period, static_cast<double>(seq.size()), 0.0, "1"));
+    report.Add(Compare(name, "fixes", span / period, static_cast<double>(seq.size()), 0.0, "1"));
     return;
   }
   const std::uint32_t lag = LagFor(said.correlation_time, period);
   const Wandering fx = FitWandering(seq, x, period, lag), fy = FitWandering(seq, y, period, lag);
-  AddWandering(kPosition, "wandering x", said.horizontal, said.correlation_time, fx, "m", report);
-  AddWandering(kPosition, "wandering y", said.horizontal, said.correlation_time, fy, "m", report);
-  AddWandering(kPosition, "wandering z", said.vertical, said.correlation_time, FitWandering(seq, z, period, lag), "m",
+  AddWandering(name, "wandering x", said.horizontal, said.correlation_time, fx, "m", report);
+  AddWandering(name, "wandering y", said.horizontal, said.correlation_time, fy, "m", report);
+  AddWandering(name, "wandering z", said.vertical, said.correlation_time, FitWandering(seq, z, period, lag), "m",
                report);
-  report.Add(Compare(kPosition, "attitude not measured, sigma", sim::kUnmeasuredAttitude, sigma, 0.0, "rad"));
-  report.Add(Compare(kPosition, "fixes in planned outages", 0.0, in_outages, 0.0, "1"));
+  report.Add(Compare(name, "attitude not measured, sigma", sim::kUnmeasuredAttitude, sigma, 0.0, "rad"));
+  report.Add(Compare(name, "fixes in planned outages", 0.0, in_outages, 0.0, "1"));
   // Renewal: an outage of mean L (rounded up to whole fixes: half a period more) after 1/rate of fixes. Of n outages
   // the lost time has a relative standard deviation of √(2/n).
-  for (std::uint32_t k = 0; k <= seq.back(); ++k) planned += lost(claimed.rate.SampleTime(k)) ? 1.0 : 0.0;
+  for (std::uint32_t k = 0; k <= seq.back(); ++k) planned += lost(rate.SampleTime(k)) ? 1.0 : 0.0;
   const double taken = static_cast<double>(seq.back()) + 1.0 - planned;
   const double length = said.outage_length + 0.5 * period;
   const double share = said.outage_rate * length / (1.0 + said.outage_rate * length);
   const double outages = std::max(1.0, span * said.outage_rate / (1.0 + said.outage_rate * length));
-  report.Add(Compare(kPosition, "share of fixes lost by chance", share, 1.0 - static_cast<double>(seq.size()) / taken,
+  report.Add(Compare(name, "share of fixes lost by chance", share, 1.0 - static_cast<double>(seq.size()) / taken,
                      kSigmas * share * std::sqrt(2.0 / outages) + 1e-9, "1"));
+}
+
+}  // namespace
+
+void CheckBarometerErrors(const Rig& rig, const sim::BarometerConfig& claimed, Report& report) {
+  const sim::BarometerConfig& built = *rig.sensors.barometer;
+  Rig bench = QuietBarometer(rig, claimed.rate);
+  if (claimed.drift > 0.0 || built.drift > 0.0) AddDrift(bench, claimed, report);
+  bench.sensors.barometer->drift = 0.0;
+  AddAir(bench, claimed, report);
+}
+
+void CheckGnss(const Rig& rig, const sim::PositionReferenceConfig& claimed, Report& report) {
+  if (!claimed.gnss) return;
+  Rig bench = Alone(rig, claimed.rate);
+  bench.sensors.barometer.reset();
+  bench.sensors.gnss.reset();
+  bench.sensors.position_reference->position_noise = 0.0;
+  AddSatellites(bench, "vehicle0/position_reference", claimed.rate, *claimed.gnss, report);
+}
+
+void CheckGnss(const Rig& rig, const sim::GnssReceiverConfig& claimed, Report& report) {
+  Rig bench = Alone(rig, claimed.rate);
+  bench.sensors.barometer.reset();
+  bench.sensors.position_reference.reset();
+  bench.sensors.gnss->noise = 0.0;
+  AddSatellites(bench, "vehicle0/gnss", claimed.rate, claimed, report);
 }
 
 void CheckBatteryGauge(const Rig& rig, const sim::SensorsConfig& claimed, Report& report) {
@@ -174,6 +188,8 @@ void CheckBatteryGauge(const Rig& rig, const sim::SensorsConfig& claimed, Report
   bench.sensors.gimbals.clear();
   bench.sensors.barometer.reset();
   bench.sensors.position_reference.reset();
+  bench.sensors.gnss.reset();
+  bench.sensors.magnetometer.reset();
   bench.sensors.status_rate = {1, 60};
   bench.step = base::Seconds(claimed.battery_rate.Period());
   const auto record = [&](double volts, double amperes, std::vector<double>& voltage, std::vector<double>& current) {

@@ -13,6 +13,7 @@ void CheckBarometerErrors(const Rig& rig, const sim::BarometerConfig& claimed, R
 /// Satellites: sigmas and correlation time of the wandering error, share of fixes lost by chance, planned outages, and
 /// that no attitude is claimed.
 void CheckGnss(const Rig& rig, const sim::PositionReferenceConfig& claimed, Report& report);
+void CheckGnss(const Rig& rig, const sim::GnssReceiverConfig& claimed, Report& report);
 
 /// Scale and offset of the battery's gauge from two loads, its quanta, the current's noise.
 void CheckBatteryGauge(const Rig& rig, const sim::SensorsConfig& claimed, Report& report);

@@ -73,7 +73,9 @@ void CheckBarometer(const Rig& rig, const sim::BarometerConfig& claimed, Report&
 void CheckPositionReference(const Rig& rig, const sim::PositionReferenceConfig& claimed, Report& report) {
   constexpr const char* kName = "vehicle0/position_reference";
   const base::Transform X_WB{base::FromYawPitchRoll(0.4, 0.1, -0.2), {1.0, -2.0, 3.0}};
-  const auto rest = RecordSamples<stack::PositionFix>(rig, X_WB, claimed.rate, kSamples);
+  Rig bench = rig;
+  bench.sensors.gnss.reset();
+  const auto rest = RecordSamples<stack::PositionFix>(bench, X_WB, claimed.rate, kSamples);
   AddRate(kName, claimed.rate, rest, report);
   std::vector<double> positions, angles, delays;
   for (const auto& [m, fix] : rest) {
@@ -88,6 +90,21 @@ void CheckPositionReference(const Rig& rig, const sim::PositionReferenceConfig& 
   AddSigma(kName, "attitude noise, 1 sigma", claimed.attitude_noise / kDegree, angles, "deg", report);
   report.Add(Compare(kName, "position bias", 0.0, SpreadOf(positions).mean,
                      kSigmas * claimed.position_noise / std::sqrt(3.0 * kSamples) + 1e-12, "m"));
+  report.Add(Compare(kName, "delay", claimed.delay.Seconds(), SpreadOf(delays).mean, 1e-9, "s"));
+}
+
+void CheckGnssReceiver(const Rig& rig, const sim::GnssReceiverConfig& claimed, Report& report) {
+  constexpr const char* kName = "vehicle0/gnss";
+  Rig bench = rig;
+  bench.sensors.position_reference.reset();
+  const auto rest = RecordSamples<stack::PositionFix>(bench, {}, claimed.rate, kSamples);
+  AddRate(kName, claimed.rate, rest, report);
+  std::vector<double> positions, delays;
+  for (const auto& [m, fix] : rest) {
+    for (int i = 0; i < 3; ++i) positions.push_back(fix.X_WB.p[i]);
+    delays.push_back((m.available - m.captured).Seconds());
+  }
+  AddSigma(kName, "noise, 1 sigma", claimed.noise, positions, "m", report);
   report.Add(Compare(kName, "delay", claimed.delay.Seconds(), SpreadOf(delays).mean, 1e-9, "s"));
 }
 

@@ -69,6 +69,7 @@ int CheckSensors(const CommandLine& line) {
   rig.sensors = scenario.config.sensors;
   rig.body = MakeVehicle(scenario.config.vehicle, check::kVehicle)->body();
   rig.step = scenario.config.simulation.step;
+  rig.B_W = sim::FluxDensity(scenario.config.simulation.magnetic_field);
   rig.seed = scenario.seed;
   rig.render = line.render;
   check::Report report = check::CheckSensors(rig, scenario.config.sensors, told);

@@ -56,6 +56,25 @@ TEST(SmallErrorsCheck, Gnss) {
       << ToTable(wrong);
 }
 
+// Beside another source of fixes, which must not be taken for it.
+TEST(SmallErrorsCheck, GnssReceiver) {
+  Rig rig = testing::EmptyRig();
+  sim::GnssReceiverConfig claimed;
+  claimed.correlation_time = 20.0;
+  claimed.outage_rate = 0.05;
+  rig.sensors.gnss = claimed;
+  rig.sensors.position_reference = sim::PositionReferenceConfig{};
+  Report right;
+  CheckGnss(rig, claimed, right);
+  EXPECT_EQ(Failed(right), Names{}) << ToTable(right);
+  rig.sensors.gnss->horizontal *= 1.3;
+  rig.sensors.gnss->outage_length *= 2.0;
+  Report wrong;
+  CheckGnss(rig, claimed, wrong);
+  EXPECT_EQ(Failed(wrong), (Names{"wandering x, 1 sigma", "wandering y, 1 sigma", "share of fixes lost by chance"}))
+      << ToTable(wrong);
+}
+
 TEST(SmallErrorsCheck, BatteryGauge) {
   Rig rig = testing::EmptyRig();
   rig.sensors.battery_gauge = {.voltage_scale = 0.01,

@@ -39,6 +39,24 @@ TEST(SmallSensorsCheck, PositionReference) {
   EXPECT_EQ(Failed(wrong), (Names{"position noise, 1 sigma", "attitude noise, 1 sigma", "delay"})) << ToTable(wrong);
 }
 
+TEST(SmallSensorsCheck, GnssReceiver) {
+  Rig rig = testing::EmptyRig();
+  sim::GnssReceiverConfig claimed;
+  claimed.horizontal = claimed.vertical = 0.0;
+  rig.sensors.gnss = claimed;
+  rig.sensors.position_reference = sim::PositionReferenceConfig{};
+  Report right;
+  CheckGnssReceiver(rig, claimed, right);
+  CheckPositionReference(rig, *rig.sensors.position_reference, right);
+  EXPECT_EQ(Failed(right), Names{}) << ToTable(right);
+  rig.sensors.gnss->rate = {10, 1};
+  rig.sensors.gnss->noise *= 1.1;
+  rig.sensors.gnss->delay = base::Milliseconds(119);
+  Report wrong;
+  CheckGnssReceiver(rig, claimed, wrong);
+  EXPECT_EQ(Failed(wrong), (Names{"rate", "noise, 1 sigma", "delay"})) << ToTable(wrong);
+}
+
 TEST(SmallSensorsCheck, Battery) {
   Rig rig = testing::EmptyRig();
   const sim::SensorsConfig claimed = rig.sensors;
