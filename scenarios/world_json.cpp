@@ -27,6 +27,21 @@ Json Shape(const geometry::MeshShape& s) {
   return {{"type", "mesh"}, {"vertices_m", vertices}, {"triangles", s.mesh->triangles}};
 }
 
+Json ToJson(const worlds::Wind& wind) {
+  Json json = {{"mean_m_s", ToJson(wind.mean_W)},
+               {"gust_sigma_m_s", wind.gust_sigma},
+               {"gust_time_s", wind.gust_time},
+               {"shelter", wind.shelter}};
+  if (wind.dryden) {
+    json["dryden"] = {{"w20_m_s", wind.dryden->w20}, {"airspeed_floor_m_s", wind.dryden->airspeed_floor}};
+  }
+  for (const worlds::CosineGust& gust : wind.gusts) {
+    json["gusts"].push_back(
+        {{"start_s", gust.start}, {"duration_s", gust.duration}, {"velocity_m_s", ToJson(gust.velocity_W)}});
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string WorldToJson(const worlds::World& world) {
@@ -37,9 +52,7 @@ std::string WorldToJson(const worlds::World& world) {
   json["target_m"] = ToJson(world.target);
   json["bounds_low_m"] = ToJson(world.bounds_low);
   json["bounds_high_m"] = ToJson(world.bounds_high);
-  json["wind"] = {{"mean_m_s", ToJson(world.wind.mean_W)},
-                  {"gust_sigma_m_s", world.wind.gust_sigma},
-                  {"gust_time_s", world.wind.gust_time}};
+  json["wind"] = ToJson(world.wind);
   json["gates"] = Json::array();
   for (const worlds::Gate& gate : world.gates) {
     json["gates"].push_back(

@@ -26,6 +26,7 @@ struct Object {
   SemanticClass semantic = SemanticClass::kObstacle;
   bool casts_shadow =
       true;  // false where the one broad light of `Light::sun` stands for lamps this side of it: ceilings
+  double wire_radius = 0.0;  // m, of a wire: pictures show it from afar too, up to half a pixel too thick; 0: no wire
 };
 
 /// A square gate's opening: x along the direction of passage, z up, origin mid-opening; where it swings, as it rests.

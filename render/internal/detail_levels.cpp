@@ -22,7 +22,7 @@ struct RoundLevel {
   double growth_lathe, error_lathe;
   double growth_ball, error_ball;
 };
-constexpr std::array<RoundLevel, kMostLevels - 1> kRoundLevels = {
+constexpr std::array<RoundLevel, 2> kRoundLevels = {
     {{12, 1.0173, 0.0174, 1.0335, 0.0336}, {8, 1.0353, 0.0354, 1.0670, 0.0672}}};
 
 template <typename Place>
@@ -134,6 +134,17 @@ std::map<Cell, std::uint32_t> MiddleVertices(const Mesh& mesh, double cell) {
   return middles;
 }
 
+/// Wires, whose normals point away from their middle.
+void AppendThickenedLevels(double radius, std::vector<DetailLevel>& levels) {
+  constexpr double kStep = 1.6;
+  double thick = radius;
+  while (levels.size() < kMostLevels) {
+    thick *= kStep;
+    levels.push_back({levels.front().mesh, thick - radius});
+    GrowAlongNormal(levels.back().mesh, thick - radius);
+  }
+}
+
 }  // namespace
 
 DetailLevel Clustered(const Mesh& mesh, double cell) {
@@ -161,10 +172,12 @@ DetailLevel Clustered(const Mesh& mesh, double cell) {
   return level;
 }
 
-std::vector<DetailLevel> DetailLevels(const geometry::Shape& shape, double texture_scale) {
+std::vector<DetailLevel> DetailLevels(const geometry::Shape& shape, double texture_scale, double wire) {
   std::vector<DetailLevel> levels(1);
   levels.front().mesh = geometry::Tessellate(shape, texture_scale);
-  if (std::holds_alternative<geometry::MeshShape>(shape)) {
+  if (wire > 0.0) {
+    AppendThickenedLevels(wire, levels);
+  } else if (std::holds_alternative<geometry::MeshShape>(shape)) {
     AppendClusteredLevels(levels);
   } else {
     AppendRoundLevels(shape, texture_scale, levels);

@@ -14,9 +14,12 @@ struct DetailLevel {
 
 /// The full level (error 0), then coarser ones, each with a larger error and fewer triangles; at most `kMostLevels`.
 /// Round shapes: circles of 24, 12 and 8 segments, as much outside the full level's surface as inside. Meshes of many
-/// triangles: vertices clustered in cells.
-inline constexpr int kMostLevels = 3;
-std::vector<DetailLevel> DetailLevels(const geometry::Shape& shape, double texture_scale);
+/// triangles: vertices clustered in cells. A wire of radius `wire` (m; 0: none): the same mesh, each level 1.6 times as
+/// thick as the one before. What is thinner than a pixel is hit by some pixels' centres and missed by others, a row of
+/// dots; a level that is chosen as any other is (LevelFor) is no more than half a pixel too thick to each side, and
+/// about a pixel wide.
+inline constexpr int kMostLevels = 6;
+std::vector<DetailLevel> DetailLevels(const geometry::Shape& shape, double texture_scale, double wire = 0.0);
 
 /// Vertex clustering (Rossignac and Borrel 1993): the vertices in each cell of a grid of `cell` metres move to the one
 /// nearest to their mean; triangles that lose their area go. Vertices of one place that differ in normal or texture

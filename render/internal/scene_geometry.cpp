@@ -73,7 +73,8 @@ SceneGeometry BuildScene(const worlds::World& world, std::span<const Mover> move
                                            std::to_string(object.material) + " of " +
                                            std::to_string(world.materials.size()));
     }
-    Batch batch = Append(scene, DetailLevels(object.shape, object.texture_scale), object.X_WO, object.material);
+    Batch batch = Append(scene, DetailLevels(object.shape, object.texture_scale, object.wire_radius), object.X_WO,
+                         object.material);
     batch.casts_shadow = object.casts_shadow;
     scene.low = scene.statics.empty() ? batch.low : scene.low.cwiseMin(batch.low).eval();
     scene.high = scene.statics.empty() ? batch.high : scene.high.cwiseMax(batch.high).eval();

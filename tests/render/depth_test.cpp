@@ -1,11 +1,14 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <memory>
 #include <optional>
 
 #include "render/internal/projection.h"
 #include "tests/render/each_maker.h"
 #include "tests/render/test_scene.h"
+#include "worlds/kit/mesh_parts.h"
 
 namespace alula::render {
 namespace {
@@ -147,6 +150,33 @@ TEST_P(DepthPass, AgreesWithRayCastsOnRandomPoses) {
   }
   EXPECT_LT(left_out, 40);
   EXPECT_GT(compared, 1000);
+}
+
+// A wire of 2 cm across the picture, 5 to 60 m away: two columns of three show it at least, none with more than three
+// pixels. Drawn as thick as it is, it would show in one of seven at 60 m.
+TEST_P(DepthPass, WiresAreLinesNotDots) {
+  worlds::World world;
+  world.materials = {test::Plain(0.1F)};
+  auto mesh = std::make_shared<geometry::Mesh>();
+  const std::array<worlds::TubePoint, 2> line{{{{0, -40, 0}, 0.01}, {{0, 40, 3}, 0.01}}};
+  worlds::AddTube(*mesh, line, 6, 0.5);
+  world.objects.push_back({"wire", geometry::MeshShape{mesh}, {}, 0, 1.0, true});
+  world.objects.back().wire_radius = 0.01;
+  const auto renderer = Make(world);
+  for (const double distance : {5.0, 12.0, 25.0, 60.0}) {
+    DepthPicture depth;
+    renderer->Depth(LookAt({-distance, 0, 1.5}, {0, 0, 1.5}), depth);
+    int shown = 0;
+    int thick = 0;
+    for (int u = 100; u < 540; ++u) {
+      int pixels = 0;
+      for (int v = 0; v < 480; ++v) pixels += depth.metres[static_cast<std::size_t>(v * 640 + u)] > 0.0F ? 1 : 0;
+      shown += pixels > 0 ? 1 : 0;
+      thick += pixels > 3 ? 1 : 0;
+    }
+    EXPECT_GE(shown, 293) << distance;
+    EXPECT_EQ(thick, 0) << distance;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Makers, DepthPass, test::kEachMaker);

@@ -1,8 +1,10 @@
 #include "worlds/outdoor/open_field.h"
 
 #include <cmath>
+#include <memory>
 #include <numbers>
 
+#include "worlds/actors/grass.h"
 #include "worlds/kit/building.h"
 #include "worlds/kit/street.h"
 #include "worlds/outdoor/site.h"
@@ -27,8 +29,32 @@ void Describe(base::Description& d, OpenFieldConfig& c) {
   d.Field("contrast", c.contrast,
           {.meaning = "standard deviation of the grass's tones over their range", .min = 0.02, .max = 0.27});
   d.Field("tufts", c.tufts, {.meaning = "tufts of longer grass", .min = 0, .max = 4000});
+  d.Field("waving_tufts", c.waving_tufts,
+          {.meaning = "tufts near the pad and at the target that the wash of the vehicle bends", .min = 0, .max = 800});
   d.Field("weather", c.weather, {.meaning = "hour, sun, clouds, fog and wind"});
 }
+
+namespace {
+
+/// Long grass where a vehicle flies low, off the pad: on the way that it takes, and about the target.
+void AddWavingGrass(World& world, const Land& land, int tufts, std::uint64_t seed) {
+  constexpr double kHalf = 2.5;     // m
+  constexpr double kFromPad = 5.5;  // m, of the patch's middle
+  const auto ground = std::make_shared<const HeightField>(land.field);
+  const Vec2 target = world.target.head<2>();
+  const auto patch = [&](const char* name, const Vec2& middle) {
+    const GrassConfig grass{.low = middle - Vec2::Constant(kHalf),
+                            .high = middle + Vec2::Constant(kHalf),
+                            .tufts = tufts / 2,
+                            .ground = ground};
+    AddGrass(world, name, grass, seed);
+  };
+  if (tufts < 2) return;
+  patch("grass/pad", kFromPad * target.normalized());
+  patch("grass/target", target);
+}
+
+}  // namespace
 
 World MakeWorld(const OpenFieldConfig& config, std::uint64_t seed) {
   constexpr double kPi = std::numbers::pi;
@@ -62,6 +88,7 @@ World MakeWorld(const OpenFieldConfig& config, std::uint64_t seed) {
   AddStreetLamp(world, metal, "yard_lamp", {base::FromYaw(bearing + kPi), land.On(yard)}, {.height = 4.0},
                 IsDark(config.weather));
   world.target = land.On(place * (1.0 - 9.0 / distance)) + Vec3(0, 0, 1.5);
+  AddWavingGrass(world, land, config.waving_tufts, seed);
   FinishWorld(world, land, config.weather, 20.0, seed);
   return world;
 }

@@ -16,6 +16,7 @@ struct OpenFieldConfig {
   double unevenness = 0.05;             // m, 1σ of the ground's bumps
   double contrast = 0.13;               // of the grass, of the palette's range (1σ)
   int tufts = 900;
+  int waving_tufts = 200;  // that the vehicle's wash bends: half of them near the pad, half at the target
   WeatherConfig weather;
 };
 void Describe(base::Description& d, OpenFieldConfig& c);

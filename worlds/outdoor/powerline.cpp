@@ -36,13 +36,21 @@ struct Wire {
   double radius = 0.0;
 };
 
+/// In stretches: how thick one is drawn depends on how far it is from the eye.
 void AddWire(World& world, int metal, const Wire& wire) {
-  constexpr int kPieces = 40;
-  std::vector<TubePoint> line;
-  for (int i = 0; i <= kPieces; ++i) line.push_back({wire.curve.At(static_cast<double>(i) / kPieces), wire.radius});
-  auto mesh = std::make_shared<geometry::Mesh>();
-  AddTube(*mesh, line, 6, 0.5);
-  AddObject(world, wire.name, geometry::MeshShape{std::move(mesh)}, {}, metal, 1.0);
+  constexpr int kStretches = 10;
+  constexpr int kPieces = 4;
+  for (int stretch = 0; stretch < kStretches; ++stretch) {
+    std::vector<TubePoint> line;
+    for (int i = 0; i <= kPieces; ++i) {
+      line.push_back({wire.curve.At(static_cast<double>(stretch * kPieces + i) / (kStretches * kPieces)), wire.radius});
+    }
+    auto mesh = std::make_shared<geometry::Mesh>();
+    AddTube(*mesh, line, 6, 0.5);
+    const std::size_t index = AddObject(world, wire.name + "/" + std::to_string(stretch),
+                                        geometry::MeshShape{std::move(mesh)}, {}, metal, 1.0);
+    world.objects[index].wire_radius = wire.radius;
+  }
 }
 
 /// Towers with their insulators; gives the conductors' spans, then the earth wire's.
