@@ -1,6 +1,6 @@
-#include <bit>
 
 #include "worlds/courtyard.h"
+#include "worlds/textures.h"
 
 namespace alula::worlds {
 namespace {
@@ -59,12 +59,7 @@ void Describe(base::Description& d, CourtyardConfig& c) {
   d.Field("lamps", c.lamps, {.meaning = "lamps that stand in the courtyard, at most 32"});
   d.Check("lamps", [&c] { return c.lamps.size() <= 32 ? std::string() : std::string("must not be more than 32"); });
   d.Field("prop", c.prop, {.meaning = "mesh file of worlds/assets in the courtyard's middle; empty for none"});
-  d.Field("texture_size", c.texture_size,
-          {.meaning = "texels a side of ground and wall textures, a power of two", .min = 32, .max = 4096});
-  d.Check("texture_size", [&c] {
-    return std::has_single_bit(static_cast<unsigned>(c.texture_size)) ? std::string()
-                                                                      : std::string("must be a power of two");
-  });
+  DescribeTextureSize(d, c.texture_size);
   d.Field("placement_tries", c.placement_tries,
           {.meaning = "draws of the course before the nominal one is taken", .min = 0, .max = 100'000});
 }

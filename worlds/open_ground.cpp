@@ -1,6 +1,5 @@
 #include "worlds/open_ground.h"
 
-#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -36,12 +35,7 @@ void Describe(base::Description& d, OpenGroundConfig& c) {
   d.Field("gust_sigma", c.gust_sigma,
           {.unit = "m/s", .meaning = "standard deviation of gusts per axis", .min = 0.0, .max = 20.0});
   d.Field("gust_time", c.gust_time, {.unit = "s", .meaning = "correlation time of gusts", .min = 0.05, .max = 60.0});
-  d.Field("texture_size", c.texture_size,
-          {.meaning = "texels a side of the textures, a power of two", .min = 32, .max = 4096});
-  d.Check("texture_size", [&c] {
-    return std::has_single_bit(static_cast<unsigned>(c.texture_size)) ? std::string()
-                                                                      : std::string("must be a power of two");
-  });
+  DescribeTextureSize(d, c.texture_size);
 }
 
 World MakeWorld(const OpenGroundConfig& config, std::uint64_t seed) {

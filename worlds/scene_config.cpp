@@ -1,7 +1,7 @@
-#include <bit>
 #include <numbers>
 
 #include "worlds/scene.h"
+#include "worlds/textures.h"
 
 namespace alula::worlds {
 namespace {
@@ -125,12 +125,7 @@ void Describe(base::Description& d, SceneConfig& c) {
   d.Field("gust_time", c.gust_time, {.unit = "s", .meaning = "correlation time of gusts", .min = 0.05, .max = 60.0});
   d.Field("wind", c.wind, {.meaning = "in place of wind_mean and gusts; null: they hold"});
   DescribeActors(d, c.actors);
-  d.Field("texture_size", c.texture_size,
-          {.meaning = "texels a side of our patterns, a power of two", .min = 32, .max = 4096});
-  d.Check("texture_size", [&c] {
-    return std::has_single_bit(static_cast<unsigned>(c.texture_size)) ? std::string()
-                                                                      : std::string("must be a power of two");
-  });
+  DescribeTextureSize(d, c.texture_size);
 }
 
 }  // namespace alula::worlds

@@ -1,6 +1,7 @@
 #include "worlds/textures.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <iterator>
 #include <numbers>
@@ -314,6 +315,13 @@ std::vector<std::shared_ptr<const geometry::Texture>> MakeTextureVariants(Patter
     variants.push_back(Coloured(canvas, palette, contrast, tint));
   }
   return variants;
+}
+
+void DescribeTextureSize(base::Description& d, int& size) {
+  d.Field("texture_size", size, {.meaning = "texels a side of large surfaces, a power of two", .min = 32, .max = 4096});
+  d.Check("texture_size", [&size] {
+    return std::has_single_bit(static_cast<unsigned>(size)) ? std::string() : std::string("must be a power of two");
+  });
 }
 
 }  // namespace alula::worlds

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/describe.h"
 #include "base/frames.h"
 #include "geometry/material.h"
 
@@ -60,5 +61,8 @@ std::vector<std::shared_ptr<const geometry::Texture>> MakeTextureVariants(Patter
 /// from leaf to leaf. From the stream "world/leaves/<name>" of `seed`.
 std::shared_ptr<const geometry::Texture> MakeLeafTexture(const Palette& palette, int size, std::uint64_t seed,
                                                          std::string_view name);
+
+/// The key `texture_size` of a world.
+void DescribeTextureSize(base::Description& d, int& size);
 
 }  // namespace alula::worlds

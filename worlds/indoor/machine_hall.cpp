@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
 #include "worlds/furniture.h"
 #include "worlds/kit/machinery.h"
 #include "worlds/kit/room.h"
+#include "worlds/textures.h"
 
 namespace alula::worlds {
 namespace {
@@ -275,12 +275,7 @@ void Describe(base::Description& d, MachineHallConfig& c) {
   d.Field("pipe_runs", c.pipe_runs, {.meaning = "pipes along the walls", .min = 0, .max = 8});
   d.Field("clutter", c.clutter, {.meaning = "drums, crates and cabinets, at most", .min = 0, .max = 40});
   d.Field("bare_walls", c.bare_walls, {.meaning = "white walls without pipes"});
-  d.Field("texture_size", c.texture_size,
-          {.meaning = "texels a side of large surfaces, a power of two", .min = 32, .max = 4096});
-  d.Check("texture_size", [&c] {
-    return std::has_single_bit(static_cast<unsigned>(c.texture_size)) ? std::string()
-                                                                      : std::string("must be a power of two");
-  });
+  DescribeTextureSize(d, c.texture_size);
   d.Field("light", c.light, {.meaning = "hour and lamps"});
 }
 

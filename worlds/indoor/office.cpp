@@ -1,14 +1,13 @@
 #include "worlds/indoor/office.h"
 
-#include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
 #include "worlds/furniture.h"
 #include "worlds/kit/office_furniture.h"
 #include "worlds/kit/room.h"
+#include "worlds/textures.h"
 
 namespace alula::worlds {
 namespace {
@@ -25,7 +24,7 @@ constexpr double kPadRadius = 0.3;
 struct CorridorLooks {
   Surface floor, wall, ceiling;
   OfficeLooks office;
-  int pad = 0, skirting = 0, poster = 0;
+  int skirting = 0;
 };
 
 CorridorLooks AddLooks(World& world, const OfficeConfig& config, std::uint64_t seed) {
@@ -44,17 +43,6 @@ CorridorLooks AddLooks(World& world, const OfficeConfig& config, std::uint64_t s
   l.wall = surface("office wall", Pattern::kPaint, {{0.70F, 0.69F, 0.66F}, {0.95F, 0.94F, 0.90F}}, 2.0, 0.05);
   l.ceiling = surface("ceiling tiles", Pattern::kTiles, {{0.52F, 0.52F, 0.51F}, {0.97F, 0.97F, 0.95F}}, 2.4, 0.09);
   l.office = AddOfficeMaterials(world, config.texture_size, seed);
-  l.pad = AddMaterial(world, "pad",
-                      {.pattern = Pattern::kPad,
-                       .palette = {{0.06F, 0.08F, 0.10F}, {0.95F, 0.93F, 0.85F}},
-                       .size = std::max(16, config.texture_size / 4)},
-                      seed);
-  l.poster = AddMaterial(world, "poster",
-                         {.pattern = Pattern::kSignal,
-                          .palette = {{0.16F, 0.26F, 0.40F}, {0.96F, 0.90F, 0.72F}},
-                          .size = std::max(16, config.texture_size / 2),
-                          .contrast = 0.25},
-                         seed);
   l.skirting = AddPlainMaterial(world, "skirting", {0.34F, 0.33F, 0.32F});
   return l;
 }
@@ -81,7 +69,7 @@ void AddOnWalls(World& world, const CorridorLooks& looks, RandomStream& random) 
     }
     const double picture = shift + random.Uniform(-0.3, 0.3);
     AddBox(world, "poster_" + which, {random.Uniform(0.5, 0.7), 0.012, random.Uniform(0.7, 0.9)},
-           Standing(picture, WallOf(side) - side * 0.007, 1.5), looks.poster, 0.9, SemanticClass::kWall);
+           Standing(picture, WallOf(side) - side * 0.007, 1.5), looks.office.poster, 0.9, SemanticClass::kWall);
     // Skirting between the doors' frames.
     double from = -0.5 * kSize.x();
     for (const double to : {-1.5 + shift - 0.5 * kDoor - 0.06, 1.5 + shift - 0.5 * kDoor - 0.06, 0.5 * kSize.x()}) {
@@ -155,12 +143,7 @@ RoomLight AddLamps(World& world, const CorridorLooks& looks) {
 
 void Describe(base::Description& d, OfficeConfig& c) {
   d.Field("things", c.things, {.meaning = "cupboard, bin, plant, chair, boxes, at most", .min = 0, .max = 8});
-  d.Field("texture_size", c.texture_size,
-          {.meaning = "texels a side of the textures, a power of two", .min = 32, .max = 4096});
-  d.Check("texture_size", [&c] {
-    return std::has_single_bit(static_cast<unsigned>(c.texture_size)) ? std::string()
-                                                                      : std::string("must be a power of two");
-  });
+  DescribeTextureSize(d, c.texture_size);
   d.Field("light", c.light, {.meaning = "hour and lamps"});
 }
 
@@ -174,7 +157,7 @@ World MakeWorld(const OfficeConfig& config, std::uint64_t seed) {
   shell.east = {{-0.45, 0.45, 0.95, 2.15}};
   AddShell(world, shell, looks.floor, looks.wall, looks.ceiling, masonry);
   AddOnWalls(world, looks, office);
-  AddPad(world, looks.pad, {kStart, 0.0}, kPadRadius);
+  AddPad(world, looks.office.pad, {kStart, 0.0}, kPadRadius);
   AddThings(world, looks, config, office);
   const RoomLight light = AddLamps(world, looks);
   AddEmergencyLamps(world, light, looks.office.white);

@@ -1,7 +1,6 @@
 #include "worlds/indoor/office_floor.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -10,6 +9,7 @@
 #include "worlds/furniture.h"
 #include "worlds/kit/office_furniture.h"
 #include "worlds/kit/room.h"
+#include "worlds/textures.h"
 
 namespace alula::worlds {
 namespace {
@@ -31,7 +31,6 @@ const Vec2 kStart(-9.0, 0.0);
 struct FloorLooks {
   Surface carpet, wall, ceiling;
   OfficeLooks office;
-  int pad = 0, poster = 0;
 };
 
 /// From partition to partition, on the side of y > 0 (side 1) or y < 0 (side −1).
@@ -59,17 +58,6 @@ FloorLooks AddLooks(World& world, const OfficeFloorConfig& config, std::uint64_t
   l.wall = surface("office wall", Pattern::kPaint, {{0.70F, 0.69F, 0.66F}, {0.95F, 0.94F, 0.91F}}, 2.8, 0.05);
   l.ceiling = surface("ceiling tiles", Pattern::kTiles, {{0.52F, 0.52F, 0.51F}, {0.97F, 0.97F, 0.95F}}, 4.8, 0.09);
   l.office = AddOfficeMaterials(world, config.texture_size, seed);
-  l.pad = AddMaterial(world, "pad",
-                      {.pattern = Pattern::kPad,
-                       .palette = {{0.06F, 0.08F, 0.10F}, {0.95F, 0.93F, 0.85F}},
-                       .size = std::max(16, config.texture_size / 4)},
-                      seed);
-  l.poster = AddMaterial(world, "poster",
-                         {.pattern = Pattern::kSignal,
-                          .palette = {{0.16F, 0.26F, 0.40F}, {0.96F, 0.90F, 0.72F}},
-                          .size = std::max(16, config.texture_size / 2),
-                          .contrast = 0.25},
-                         seed);
   return l;
 }
 
@@ -128,8 +116,8 @@ void AddCorridorWall(World& world, const FloorLooks& looks, const std::vector<Ro
     const double right = room.x_high - high - kJamb;
     const double x = left > right ? room.x_low + 0.5 * left : room.x_high - 0.5 * right;  // mid of the longer stretch
     AddBox(world, name + "/poster", {random.Uniform(0.6, 1.1), 0.014, random.Uniform(0.6, 0.9)},
-           X_WL * Standing(x + random.Uniform(-0.2, 0.2), -side * (0.5 * kPartition + 0.008), 1.5), looks.poster, 1.1,
-           SemanticClass::kWall);
+           X_WL * Standing(x + random.Uniform(-0.2, 0.2), -side * (0.5 * kPartition + 0.008), 1.5), looks.office.poster,
+           1.1, SemanticClass::kWall);
     const auto skirting = [&](const char* part, double from, double to) {
       AddBox(world, name + part, {to - from, 0.012, 0.08},
              X_WL * Standing(0.5 * (from + to), -side * (0.5 * kPartition + 0.006), 0.04), looks.office.dark, 1.0,
@@ -208,7 +196,7 @@ void Furnish(World& world, const FloorLooks& looks, const std::string& name, con
   AddBox(world, name + "/board", {random.Uniform(1.2, 1.8), 0.02, 1.0},
          at(room.door < room.Middle() ? high - 1.5 : low + 1.5, kCorridor + kPartition + 0.012, 0.0) *
              Standing(0.0, 0.0, 1.45),
-         random.Index(2) == 0 ? looks.poster : o.white, 1.4, SemanticClass::kWall);
+         random.Index(2) == 0 ? looks.office.poster : o.white, 1.4, SemanticClass::kWall);
 }
 
 void AddPartitions(World& world, const FloorLooks& looks, const std::vector<Room>& rooms, RandomStream& masonry) {
@@ -263,12 +251,7 @@ void Describe(base::Description& d, OfficeFloorConfig& c) {
   d.Field("people", c.people, {.meaning = "people who walk the corridor", .min = 0, .max = 12});
   d.Field("people_speed", c.people_speed, {.unit = "m/s", .meaning = "their mean speed", .min = 0.1, .max = 3.0});
   d.Field("reactive", c.reactive, {.meaning = "whether they heed the vehicle"});
-  d.Field("texture_size", c.texture_size,
-          {.meaning = "texels a side of large surfaces, a power of two", .min = 32, .max = 4096});
-  d.Check("texture_size", [&c] {
-    return std::has_single_bit(static_cast<unsigned>(c.texture_size)) ? std::string()
-                                                                      : std::string("must be a power of two");
-  });
+  DescribeTextureSize(d, c.texture_size);
   d.Field("light", c.light, {.meaning = "hour and lamps"});
 }
 
@@ -291,7 +274,7 @@ World MakeWorld(const OfficeFloorConfig& config, std::uint64_t seed) {
   AddPartitions(world, looks, rooms, masonry);
   RandomStream furniture(seed, "world/furniture");
   for (std::size_t i = 0; i < rooms.size(); ++i) Furnish(world, looks, "room" + std::to_string(i), rooms[i], furniture);
-  AddPad(world, looks.pad, kStart, 0.4);
+  AddPad(world, looks.office.pad, kStart, 0.4);
   const RoomLight light = AddLamps(world, looks, rooms);
   AddEmergencyLamps(world, light, looks.office.white);
   world.light = MakeLight(config.light, light);

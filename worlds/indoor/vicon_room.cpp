@@ -1,13 +1,13 @@
 #include "worlds/indoor/vicon_room.h"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 
 #include "worlds/furniture.h"
 #include "worlds/indoor/prints.h"
 #include "worlds/kit/room.h"
+#include "worlds/textures.h"
 
 namespace alula::worlds {
 namespace {
@@ -321,12 +321,7 @@ void Describe(base::Description& d, ViconRoomConfig& c) {
   d.Field("rugs", c.rugs, {.meaning = "printed rugs", .min = 0, .max = 12});
   d.Field("strips", c.strips, {.meaning = "strips of tape with specks; twice as many papers", .min = 0, .max = 40});
   d.Field("bare_walls", c.bare_walls, {.meaning = "white walls without windows, curtains, mats and pictures"});
-  d.Field("texture_size", c.texture_size,
-          {.meaning = "texels a side of large surfaces, a power of two", .min = 32, .max = 4096});
-  d.Check("texture_size", [&c] {
-    return std::has_single_bit(static_cast<unsigned>(c.texture_size)) ? std::string()
-                                                                      : std::string("must be a power of two");
-  });
+  DescribeTextureSize(d, c.texture_size);
   d.Field("light", c.light, {.meaning = "hour and lamps"});
 }
 

@@ -54,6 +54,12 @@ OfficeLooks AddOfficeMaterials(World& world, int texture_size, std::uint64_t see
   l.dark = AddPlainMaterial(world, "black plastic", {0.09F, 0.09F, 0.10F});
   l.white = AddPlainMaterial(world, "white", {0.93F, 0.93F, 0.92F});
   l.glass = AddPlainMaterial(world, "satin glass", {0.66F, 0.74F, 0.76F});
+  l.pad = AddMaterial(world, "pad",
+                      {.pattern = Pattern::kPad,
+                       .palette = {{0.06F, 0.08F, 0.10F}, {0.95F, 0.93F, 0.85F}},
+                       .size = std::max(16, texture_size / 4)},
+                      seed);
+  l.poster = add("poster", Pattern::kSignal, {{0.16F, 0.26F, 0.40F}, {0.96F, 0.90F, 0.72F}}, 0.25);
   return l;
 }
 

@@ -11,6 +11,7 @@ namespace alula::worlds {
 struct OfficeLooks {
   int wood = 0, steel = 0, dark = 0, white = 0, fabric = 0, screen = 0, leaves = 0, pot = 0, paper = 0, door = 0;
   int glass = 0;  // satin: it is seen, but has nothing on it
+  int pad = 0, poster = 0;
 };
 OfficeLooks AddOfficeMaterials(World& world, int texture_size, std::uint64_t seed);
 

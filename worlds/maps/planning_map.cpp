@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -10,6 +9,7 @@
 
 #include "worlds/furniture.h"
 #include "worlds/kit/surface.h"
+#include "worlds/textures.h"
 
 namespace alula::worlds {
 namespace {
@@ -183,12 +183,7 @@ void Describe(base::Description& d, PlanningMapConfig& c) {
           {.unit = "m", .meaning = "least length of a corridor", .min = 0.3, .max = 8.0});
   d.Field("corridor_max", c.corridor_max, {.unit = "m", .meaning = "largest one", .min = 0.3, .max = 8.0});
   d.Field("height", c.height, {.unit = "m", .meaning = "of walls and obstacles", .min = 3.0, .max = 20.0});
-  d.Field("texture_size", c.texture_size,
-          {.meaning = "texels a side of the textures, a power of two", .min = 32, .max = 4096});
-  d.Check("texture_size", [&c] {
-    return std::has_single_bit(static_cast<unsigned>(c.texture_size)) ? std::string()
-                                                                      : std::string("must be a power of two");
-  });
+  DescribeTextureSize(d, c.texture_size);
   d.Field("weather", c.weather, {.meaning = "light and wind"});
   d.Check("radius_max",
           [&c] { return c.radius_max >= c.radius_min ? std::string() : std::string("must not be below radius_min"); });
