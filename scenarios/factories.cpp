@@ -56,6 +56,10 @@ StackMaker MakerOf(const StackConfig& config) {
                             return pilot::MakeVisualInertialStack(calibration, mission, c, seed, workers);
                           };
                         },
+                        [](const pilot::SlamStackConfig& c) -> StackMaker {
+                          return [c](const Calibration& calibration, const Mission& mission, std::uint64_t,
+                                     int workers) { return pilot::MakeSlamStack(calibration, mission, c, workers); };
+                        },
                         [](const PluginConfig& c) -> StackMaker {
                           return [c](const Calibration& calibration, const Mission& mission, std::uint64_t seed,
                                      int workers) { return MakePluginStack(c, calibration, mission, seed, workers); };

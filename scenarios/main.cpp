@@ -21,6 +21,8 @@ int Main(int argc, char** argv) {
       return commands::Sweep(line);
     case CommandLine::Verb::kReplay:
       return commands::Replay(line);
+    case CommandLine::Verb::kSlam:
+      return commands::Slam(line);
     case CommandLine::Verb::kList:
       return commands::List(line);
     case CommandLine::Verb::kCheck:

@@ -52,12 +52,14 @@ stack::Calibration CalibrationOf(const Scenario& scenario, const vehicles::Vehic
 }
 
 std::unique_ptr<stack::NavigationStack> MakeStack(const Scenario& scenario, const RunOptions& options,
-                                                  const stack::Calibration& truth, const worlds::World& world) {
+                                                  const stack::Calibration& truth, const worlds::World& world,
+                                                  const vehicles::VehicleModel& vehicle) {
   const StackMaker maker = options.stack ? options.stack : MakerOf(scenario.config.stack);
   if (!maker) return nullptr;
-  const base::Transform X_WB = sim::StartPose(world, truth.standing_height);
-  const stack::Mission mission = sim::SurveyMission(
-      world, truth.standing_height, Waypoints(scenario.config.mission, X_WB), scenario.config.knowledge, scenario.seed);
+  const base::Transform X_WB =
+      vehicle.body().prescribed ? vehicle.Prescribed({}).X_WB : sim::StartPose(world, truth.standing_height);
+  const stack::Mission mission = sim::SurveyMission(world, X_WB, Waypoints(scenario.config.mission, X_WB),
+                                                    scenario.config.knowledge, scenario.seed);
   const stack::Calibration calibration = sim::Misjudge(truth, scenario.config.knowledge, scenario.seed);
   try {
     return maker(calibration, mission, scenario.seed, options.workers);
@@ -211,7 +213,7 @@ Verdict RunScenario(const Scenario& scenario, const RunOptions& options) {
   }
   Assemble(scenario, options, parts, cast);
   try {
-    parts.stack = MakeStack(scenario, options, cast.calibration, *world);
+    parts.stack = MakeStack(scenario, options, cast.calibration, *world, *parts.vehicle);
     if (const auto* plugin = std::get_if<PluginConfig>(&scenario.config.stack)) {
       verdict.versions["stack_library"] = HashOfLibrary(plugin->library);
     }
@@ -267,7 +269,7 @@ Verdict ConcludeDeadRun(const Scenario& scenario, const std::optional<std::files
 
 sim::SimulationParts BuildParts(const Scenario& scenario, const RunOptions& options) {
   sim::SimulationParts parts = MakeParts(scenario, options);
-  parts.stack = MakeStack(scenario, options, CalibrationOf(scenario, *parts.vehicle), *parts.world);
+  parts.stack = MakeStack(scenario, options, CalibrationOf(scenario, *parts.vehicle), *parts.world, *parts.vehicle);
   return parts;
 }
 
@@ -275,7 +277,7 @@ void TryToBuild(const Scenario& scenario) {
   const auto world = MakeWorld(scenario.config.world, scenario.seed);
   const auto vehicle = MakeVehicle(scenario.config.vehicle, kVehicle);
   const auto autopilot = MakeAutopilot(scenario.config.autopilot, scenario.config.vehicle);
-  const auto stack = MakeStack(scenario, {}, CalibrationOf(scenario, *vehicle), *world);
+  const auto stack = MakeStack(scenario, {}, CalibrationOf(scenario, *vehicle), *world, *vehicle);
   const sim::faults::Scope scope =
       sim::faults::ScopeOf(scenario.config.sensors, *vehicle, *world, kVehicle, autopilot != nullptr, stack != nullptr);
   const sim::faults::Injector faults(scenario.config.faults, scope, scenario.seed);

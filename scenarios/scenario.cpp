@@ -66,7 +66,8 @@ void Describe(base::Description& d, ScenarioConfig& c) {
   d.Field("knowledge", c.knowledge, {.meaning = "how wrong the stack's calibration and mission are"});
   d.Field("mission", c.mission, {.meaning = "what is asked of the stack"});
   d.OneOf("stack", c.stack,
-          {.meaning = "the software under test", .choices = {"none", "position_relay", "visual_inertial", "plugin"}});
+          {.meaning = "the software under test",
+           .choices = {"none", "position_relay", "visual_inertial", "slam", "plugin"}});
   d.Field("simulation", c.simulation, {.meaning = "the loop"});
   d.Field("recorder", c.recorder, {.meaning = "what is written down"});
   d.ListOf("criteria", c.criteria,

@@ -24,6 +24,7 @@
 #include "sim/recorder.h"
 #include "sim/simulation.h"
 #include "stack/pilot/position_relay_stack.h"
+#include "stack/pilot/slam_stack.h"
 #include "stack/pilot/visual_inertial_stack.h"
 #include "vehicles/multicopter_autopilot.h"
 #include "vehicles/prescribed.h"
@@ -59,8 +60,8 @@ using WorldConfig =
                  worlds::OfficeFloorConfig>;
 using VehicleConfig = std::variant<vehicles::QuadrotorConfig, vehicles::PrescribedConfig>;
 using AutopilotConfig = std::variant<None, vehicles::MulticopterAutopilotConfig>;
-using StackConfig =
-    std::variant<None, stack::pilot::PositionRelayConfig, stack::pilot::VisualInertialConfig, PluginConfig>;
+using StackConfig = std::variant<None, stack::pilot::PositionRelayConfig, stack::pilot::VisualInertialConfig,
+                                 stack::pilot::SlamStackConfig, PluginConfig>;
 using CriterionConfig = std::variant<TimeLimitConfig, ContactsConfig, ClearanceConfig, GatesConfig, TargetReachedConfig,
                                      MeanSpeedConfig, AteConfig, LandedConfig, HoverErrorConfig, BoundsConfig>;
 

@@ -72,13 +72,12 @@ base::Transform StartPose(const worlds::World& world, double standing_height) {
   return {world.X_WB_start.q, world.X_WB_start.p + base::Vec3(0.0, 0.0, standing_height)};
 }
 
-stack::Mission SurveyMission(const worlds::World& world, double standing_height,
+stack::Mission SurveyMission(const worlds::World& world, const base::Transform& X_WB,
                              const std::vector<base::Vec3>& waypoints_W, const KnowledgeErrors& errors,
                              std::uint64_t seed) {
   base::RandomStream start(seed, "knowledge/mission/start");
   base::RandomStream gates(seed, "knowledge/mission/gates");
   stack::Mission mission;
-  const base::Transform X_WB = StartPose(world, standing_height);
   mission.X_WB_start.p = X_WB.p + errors.start_position * start.GaussianVec3();
   mission.X_WB_start.q = (base::FromYaw(errors.start_yaw * start.Gaussian()) * X_WB.q).normalized();
   mission.start_position_sigma = errors.start_position;

@@ -31,8 +31,9 @@ void Describe(base::Description& d, KnowledgeErrors& c);
 /// The calibration as a laboratory got it: the truth with errors of streams "knowledge/calibration/…".
 stack::Calibration Misjudge(const stack::Calibration& truth, const KnowledgeErrors& errors, std::uint64_t seed);
 
-/// The mission as surveyed: the world with errors of streams "knowledge/mission/…". `waypoints_W` pass unchanged.
-stack::Mission SurveyMission(const worlds::World& world, double standing_height,
+/// The mission as surveyed: the world, and `X_WB` where the body is at the start, with errors of streams
+/// "knowledge/mission/…". `waypoints_W` pass unchanged.
+stack::Mission SurveyMission(const worlds::World& world, const base::Transform& X_WB,
                              const std::vector<base::Vec3>& waypoints_W, const KnowledgeErrors& errors,
                              std::uint64_t seed);
 

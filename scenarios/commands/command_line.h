@@ -41,6 +41,7 @@ struct CommandLine {
     kExport,
     kSweep,
     kReplay,
+    kSlam,
     kList,
     kCheck,
     kCheckSensors,
@@ -67,6 +68,7 @@ struct CommandLine {
   std::string tag;                  // of those
   int drops = 200;                  // check landing: on safe cells
   bool diff = false;
+  std::vector<std::string> variants;  // slam: NAME:KEY=VALUE,…
   bool quiet = false;
   std::filesystem::path json;   // file of figures or verdicts; "-": standard output; empty: none
   std::filesystem::path junit;  // likewise

@@ -16,5 +16,6 @@ int CheckSensors(const CommandLine& line);
 int Bench(const CommandLine& line);
 int Sweep(const CommandLine& line);
 int Replay(const CommandLine& line);
+int Slam(const CommandLine& line);
 
 }  // namespace alula::scenarios::commands

@@ -138,6 +138,7 @@ class StereoInertialOdometry::Impl {
     if (imu_.noise.accelerometer_turn_on_bias > 0) sigmas.accel_bias = imu_.noise.accelerometer_turn_on_bias;
     Begin(state, sigmas);
     result.inliers = result.tracked;
+    result.keyframe = true;
     running_ = true;
   }
 
@@ -175,6 +176,10 @@ class StereoInertialOdometry::Impl {
     result.inliers = 0;
     for (const Track& t : tracks) result.inliers += window_.SeenInNewest(t.id) ? 1 : 0;
     if (keyframe) X_OC_reference_ = window_.Newest().X_OI * window_.X_IC();
+    result.keyframe = keyframe;
+    if (keyframe) {
+      if (const std::optional<ImuState> last = window_.KeyframeBefore()) result.X_OB_before = last->X_OI * imu_.X_BI.Inverse();
+    }
     View(tracks, result);
 
     const std::string failure = Failure(solved, predicted, input.stamp, result.inliers);
@@ -274,6 +279,8 @@ class StereoInertialOdometry::Impl {
     Begin(state, sigmas);
     failed_solves_ = 0;
     ++reset_counter_;
+    result.keyframe = true;
+    result.X_OB_before.reset();
     result.reset_counter = reset_counter_;
     result.note = "reset: " + why;
   }
@@ -290,6 +297,7 @@ class StereoInertialOdometry::Impl {
     out.accel_bias = s.accel_bias;
     const TimedImu now = Cut(samples_, s.stamp, s.stamp).front();
     const Vec3 w_B = imu_.X_BI.q * (now.gyro - s.gyro_bias);
+    out.w_B = w_B;
     out.v_OB = s.v_OI - out.X_OB.q * w_B.cross(imu_.X_BI.p);
     result.initialised = true;
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,7 @@ struct NavState {
   base::Time stamp;
   base::Transform X_OB;
   base::Vec3 v_OB = base::Vec3::Zero();
+  base::Vec3 w_B = base::Vec3::Zero();         // rad/s
   base::Vec3 gyro_bias = base::Vec3::Zero();   // rad/s, IMU frame
   base::Vec3 accel_bias = base::Vec3::Zero();  // m/s², IMU frame
 };
@@ -47,6 +49,9 @@ struct FrameResult {
   base::Mat6 pose_covariance = base::Mat6::Zero();  // of (δp in O, δθ in B), m², rad²
   base::Mat3 velocity_covariance = base::Mat3::Zero();
   std::uint32_t reset_counter = 0;  // grows when the state was re-initialised
+  bool keyframe = false;            // the window keeps this frame
+  /// With a keyframe: where the keyframe before it is now known to be; none after a (re)start.
+  std::optional<base::Transform> X_OB_before;
   std::vector<FeatureView> features;
   int tracked = 0;   // corners followed into this image
   int inliers = 0;   // of them, those that agree with the motion

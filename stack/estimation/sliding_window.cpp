@@ -123,6 +123,13 @@ ImuState SlidingWindow::ReadState(const Frame& frame) const {
 
 ImuState SlidingWindow::Newest() const { return ReadState(*frames_.back()); }
 
+std::optional<ImuState> SlidingWindow::KeyframeBefore() const {
+  for (std::size_t i = frames_.size() - 1; i-- > 0;) {
+    if (frames_[i]->keyframe) return ReadState(*frames_[i]);
+  }
+  return std::nullopt;
+}
+
 /// During the time offset the IMU moves on with the speed and rate it has at the stamp.
 void SlidingWindow::RefreshModels() {
   for (const auto& frame : frames_) {

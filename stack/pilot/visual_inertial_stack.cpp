@@ -2,8 +2,6 @@
 
 #include <array>
 #include <chrono>
-#include <deque>
-#include <map>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -12,6 +10,7 @@
 #include "stack/estimation/imu_propagator.h"
 #include "stack/mapping/map_file.h"
 #include "stack/pilot/job_queue.h"
+#include "stack/slam/frame_assembler.h"
 
 namespace alula::stack::pilot {
 
@@ -27,12 +26,6 @@ constexpr double kColumnReserve = 0.5;                            // m above the
 constexpr double kOpeningSigma = 0.1;                             // m; a gate known this well tells what its opening is
 constexpr double kOpeningDepth = 0.3;                             // m to each side of the plane declared free
 constexpr double kOpeningMargin = 0.15;                           // m kept from the bars
-constexpr std::size_t kFramesWaiting = 8;                         // pairs that may wait for their second eye
-
-struct StereoFrame {
-  Time stamp;
-  std::optional<Image> left, right;
-};
 
 /// Wall time of the parts of a mapping job, ms; for profiling only.
 struct MapTiming {
@@ -109,12 +102,10 @@ class VisualInertialStack : public NavigationStack {
         config_(config),
         workshop_(calibration, mission, config),
         propagator_(calibration),
+        frames_(calibration),
         watch_(config.watch),
         mission_(calibration, mission, config.mission, config.route, config.alignment, config.latency.planning, seed),
         jobs_(workers) {
-    const auto& eyes = *calibration.stereo;
-    left_ = calibration.cameras.at(static_cast<std::size_t>(eyes[0]));
-    right_ = calibration.cameras.at(static_cast<std::size_t>(eyes[1]));
   }
 
   StackOutput Step(Time now, std::span<const Measurement> measurements) override {
@@ -168,20 +159,11 @@ class VisualInertialStack : public NavigationStack {
     if (const auto* imu = std::get_if<ImuSample>(&measurement.data)) {
       if (measurement.sensor != calibration_.imu->sensor) return;
       if (!watch_.Accept(measurement.captured, *imu, Flying())) return;
-      const estimation::TimedImu sample{measurement.captured, imu->angular_velocity, imu->specific_force};
-      propagator_.AddImu(sample);
-      imu_.push_back(sample);
+      propagator_.AddImu({measurement.captured, imu->angular_velocity, imu->specific_force});
+      frames_.Add(measurement);
     } else if (const auto* image = std::get_if<Image>(&measurement.data)) {
-      if (measurement.sensor != left_.sensor && measurement.sensor != right_.sensor) return;
-      if (!watch_.Accept(measurement.sensor, *image, Flying())) return;
-      StereoFrame& frame = frames_[measurement.seq];
-      if (measurement.sensor == left_.sensor) {
-        frame.left = *image;
-        frame.stamp = measurement.captured + left_.time_offset;
-      } else {
-        frame.right = *image;
-      }
-      while (frames_.size() > kFramesWaiting) frames_.erase(frames_.begin());  // an eye that never came
+      if (!frames_.IsEye(measurement.sensor)) return;
+      if (watch_.Accept(measurement.sensor, *image, Flying())) frames_.Add(measurement);
     } else if (const auto* status = std::get_if<VehicleStatus>(&measurement.data)) {
       status_ = *status;
     }
@@ -189,37 +171,21 @@ class VisualInertialStack : public NavigationStack {
 
   bool Flying() const { return status_ && !status_->landed; }
 
-  /// The oldest whole pair whose inertial samples are complete goes to the odometry.
+  /// Whole pairs go to the odometry, oldest first; one that finds it busy is left out.
   void StartOdometry(Time now) {
-    while (!frames_.empty()) {
-      const auto& [seq, frame] = *frames_.begin();
-      const bool whole = frame.left && frame.right;
-      if (!whole) {
-        const bool later_whole = frames_.size() > 1 && frames_.rbegin()->second.left && frames_.rbegin()->second.right;
-        if (!later_whole) return;
-        frames_.erase(frames_.begin());
-        continue;
-      }
-      if (imu_.empty() || imu_.back().time < frame.stamp) return;
-      estimation::FrameInput input{seq, frame.stamp, *frame.left, *frame.right, {}};
-      std::size_t used = 0;
-      while (used < imu_.size() && (used == 0 || imu_[used - 1].time < frame.stamp)) ++used;
-      input.imu.assign(imu_.begin(), imu_.begin() + static_cast<std::ptrdiff_t>(used));
-      auto pair = std::make_shared<const StereoFrame>(frame);
+    while (const std::optional<estimation::FrameInput> next = frames_.Next()) {
+      const auto input = std::make_shared<const estimation::FrameInput>(*next);
       const bool started = jobs_.Start(
           "odometry", "odometry", now, config_.latency.odometry,
-          [this, input = std::move(input)] {
-            return OdometryOutput{workshop_.odometry.Process(input), workshop_.odometry.Timing()};
-          },
-          [this, due = jobs_.Due(now, config_.latency.odometry), pair](OdometryOutput result) {
-            OnFrame(due, *pair, result);
+          [this, input] { return OdometryOutput{workshop_.odometry.Process(*input), workshop_.odometry.Timing()}; },
+          [this, due = jobs_.Due(now, config_.latency.odometry), input](OdometryOutput result) {
+            OnFrame(due, *input, result);
           });
-      if (started) imu_.erase(imu_.begin(), imu_.begin() + static_cast<std::ptrdiff_t>(used));
-      frames_.erase(frames_.begin());
+      if (started) frames_.Consume(*input);
     }
   }
 
-  void OnFrame(Time now, const StereoFrame& pair, OdometryOutput& output) {
+  void OnFrame(Time now, const estimation::FrameInput& pair, OdometryOutput& output) {
     const estimation::FrameResult& frame = output.frame;
     timing_ = output.timing;
     propagator_.Correct(frame);
@@ -229,7 +195,7 @@ class VisualInertialStack : public NavigationStack {
     if (initialised_ && frame.seq % static_cast<std::uint32_t>(config_.depth_every) == 0) {
       jobs_.Start(
           "mapping", "mapping", now, config_.latency.mapping,
-          [this, left = *pair.left, right = *pair.right, X_OB = frame.state.X_OB, X_MO = mission_.X_MO()] {
+          [this, left = pair.left, right = pair.right, X_OB = frame.state.X_OB, X_MO = mission_.X_MO()] {
             return workshop_.Map(left, right, X_OB, X_MO);
           },
           [this](MapResult result) {
@@ -295,15 +261,13 @@ class VisualInertialStack : public NavigationStack {
 
   Calibration calibration_;
   VisualInertialConfig config_;
-  CameraCalibration left_, right_;
   Workshop workshop_;
   estimation::ImuPropagator propagator_;
+  slam::FrameAssembler frames_;
   SensorWatch watch_;
   GateMission mission_;
 
   StackOutput* out_ = nullptr;  // during Step
-  std::deque<estimation::TimedImu> imu_;
-  std::map<std::uint32_t, StereoFrame> frames_;
   std::optional<VehicleStatus> status_;
   Time next_control_, next_estimate_, next_note_;
   bool initialised_ = false, ever_initialised_ = false;

@@ -78,7 +78,7 @@ TEST(Knowledge, GateHintsAreWrongInTheirPlaneOnly) {
   world.gates.push_back({"gate0", {base::FromYaw(0.7), {3, 1, 1.5}}, 1.4, 0.15});
   const KnowledgeErrors errors;
   for (std::uint64_t seed = 1; seed <= 300; ++seed) {
-    const stack::Mission mission = SurveyMission(world, 0.1, {}, errors, seed);
+    const stack::Mission mission = SurveyMission(world, StartPose(world, 0.1), {}, errors, seed);
     const base::Vec3 shift_G = world.gates[0].X_WG.Inverse() * mission.gates[0].X_WG.p;
     EXPECT_NEAR(shift_G.x(), 0.0, 1e-12);
     EXPECT_GE(shift_G.norm(), 0.3 - 1e-12);
@@ -105,7 +105,7 @@ TEST(Knowledge, NoErrorsAskedForMeansTheTruth) {
   const stack::Calibration judged = Misjudge(Truth(), none, 3);
   EXPECT_LT((judged.cameras[1].X_BC.p - Truth().cameras[1].X_BC.p).norm(), 1e-15);
   const worlds::World world = testing::GroundAndCrate();
-  EXPECT_EQ(SurveyMission(world, 0.1, {}, none, 3).X_WB_start.p, base::Vec3(0, 0, 0.1));
+  EXPECT_EQ(SurveyMission(world, StartPose(world, 0.1), {}, none, 3).X_WB_start.p, base::Vec3(0, 0, 0.1));
 }
 
 }  // namespace

@@ -1,0 +1,46 @@
+#include "scenarios/slam/estimator_run.h"
+
+#include <algorithm>
+#include <ctime>
+#include <utility>
+
+namespace alula::scenarios::slam {
+namespace {
+
+double ProcessorMs() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
+}
+
+}  // namespace
+
+EstimatorRun::EstimatorRun(const Variant& variant, const stack::Calibration& calibration,
+                           const base::Transform& X_MB_start)
+    : slam_(std::make_unique<stack::slam::Slam>(calibration, variant.config, X_MB_start)) {
+  result_.name = variant.name;
+}
+
+void EstimatorRun::Feed(const stack::estimation::FrameInput& frame) {
+  const double begin = ProcessorMs();
+  const stack::slam::SlamResult given = slam_->Process(frame);
+  result_.frame_ms.push_back(ProcessorMs() - begin);
+  result_.frames.push_back(frame.stamp);
+  const stack::estimation::FrameResult& odometry = given.odometry;
+  result_.resets = odometry.reset_counter;
+  if (odometry.initialised)
+    result_.online.push_back({odometry.state.stamp, given.X_MO * odometry.state.X_OB});
+  if (!odometry.note.empty() &&
+      std::find(result_.notes.begin(), result_.notes.end(), odometry.note) == result_.notes.end()) {
+    result_.notes.push_back(odometry.note);
+  }
+}
+
+EstimatorResult EstimatorRun::Finish() {
+  const double begin = ProcessorMs();
+  result_.finished = slam_->FinalTrajectory();
+  result_.finish_ms = ProcessorMs() - begin;
+  return std::move(result_);
+}
+
+}  // namespace alula::scenarios::slam

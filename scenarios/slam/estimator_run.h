@@ -1,0 +1,42 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "stack/slam/slam.h"
+#include "stack/slam/slam_config.h"
+
+namespace alula::scenarios::slam {
+
+/// A way to estimate, by name: what is compared with others on the same images.
+struct Variant {
+  std::string name;
+  stack::slam::SlamConfig config;
+};
+
+/// What one estimator made of a recording or flight.
+struct EstimatorResult {
+  std::string name;
+  std::vector<stack::slam::StampedPose> online;     // map-frame pose as known at its frame
+  std::vector<stack::slam::StampedPose> finished;   // after all optimisation
+  std::vector<base::Time> frames;                   // stamps of all frames given
+  std::vector<double> frame_ms;                     // processor time of each
+  double finish_ms = 0.0;                           // of the work at the end
+  std::uint32_t resets = 0;
+  std::vector<std::string> notes;                   // in the order in which they first appeared
+};
+
+/// An estimator that is being fed. Reads the thread's processor clock, for the report alone.
+class EstimatorRun {
+ public:
+  EstimatorRun(const Variant& variant, const stack::Calibration& calibration, const base::Transform& X_MB_start);
+  void Feed(const stack::estimation::FrameInput& frame);
+  EstimatorResult Finish();
+
+ private:
+  EstimatorResult result_;
+  std::unique_ptr<stack::slam::Slam> slam_;
+};
+
+}  // namespace alula::scenarios::slam

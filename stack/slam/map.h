@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "base/frames.h"
+#include "base/time.h"
+#include "stack/slam/bundle_adjustment.h"
+#include "stack/slam/keyframe_features.h"
+
+namespace alula::stack::slam {
+
+/// A point of the map: where it is, what it looks like, who saw it.
+struct Landmark {
+  struct Sight {
+    int keyframe = 0;
+    int feature = 0;
+  };
+  base::Vec3 p_M = base::Vec3::Zero();
+  features::Descriptor descriptor{};
+  base::Vec3 normal = base::Vec3::Zero();  // mean unit direction from the point to those who saw it
+  double reference_distance = 0.0;         // m: at which it was seen at `reference_level`
+  int reference_level = 0;
+  int born = 0;                            // the keyframe that first saw it
+  std::vector<Sight> sights;               // ascending in keyframes
+};
+
+/// A frame that the map remembers.
+struct Keyframe {
+  int id = 0;
+  std::uint32_t seq = 0;
+  base::Time stamp;
+  base::Transform X_OB;  // as the odometry had it when the keyframe was taken
+  base::Transform X_MB;
+  base::Vec3 up_B = base::Vec3::UnitZ();
+  KeyframeFeatures features;
+  std::vector<int> landmarks;  // of each feature; −1: none
+  /// Motion from the keyframe before it, as the odometry measured it; none where it lost its way in between.
+  std::optional<RelativePose> from_previous;
+  int previous = -1;
+};
+
+/// Keyframes and landmarks by id; those that were dropped leave a null. Ids are never given twice.
+struct Map {
+  Eyes eyes;  // as known now; the rig is one through the whole map
+  std::vector<std::unique_ptr<Keyframe>> keyframes;
+  std::vector<std::unique_ptr<Landmark>> landmarks;
+
+  Keyframe& keyframe(int id) { return *keyframes[static_cast<std::size_t>(id)]; }
+  const Keyframe& keyframe(int id) const { return *keyframes[static_cast<std::size_t>(id)]; }
+  Landmark& landmark(int id) { return *landmarks[static_cast<std::size_t>(id)]; }
+  const Landmark& landmark(int id) const { return *landmarks[static_cast<std::size_t>(id)]; }
+};
+
+/// A keyframe and how many landmarks it shares with some other.
+struct Covisible {
+  int keyframe = 0;
+  int shared = 0;
+};
+
+/// Keyframes that see at least `least` of the landmarks that `id` sees, most first, then oldest.
+std::vector<Covisible> CovisibleWith(const Map& map, int id, int least);
+
+/// A new landmark seen by one feature of a keyframe, which knows its depth. Its id.
+int AddLandmark(Map& map, int keyframe, int feature, const base::Vec3& p_M);
+/// One more sight of a landmark; the feature must have none.
+void AddSight(Map& map, int landmark, int keyframe, int feature);
+/// Takes a sight away; a landmark without any goes with it.
+void RemoveSight(Map& map, int landmark, int keyframe);
+void RemoveLandmark(Map& map, int landmark);
+/// All sights of `from` become sights of `into`, where that keyframe has none of it yet.
+void FuseLandmarks(Map& map, int from, int into);
+/// Normal, reference and descriptor from the sights that there are.
+void RefreshLandmark(Map& map, int landmark);
+
+}  // namespace alula::stack::slam

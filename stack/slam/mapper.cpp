@@ -1,0 +1,294 @@
+#include "stack/slam/mapper.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "stack/slam/landmark_search.h"
+#include "stack/slam/map_bundle.h"
+
+namespace alula::stack::slam {
+
+using base::Transform;
+using base::Vec3;
+
+namespace {
+
+constexpr int kLeastShared = 12;        // landmarks that make two keyframes neighbours
+constexpr std::size_t kLookAround = 30;  // keyframes whose landmarks are looked for
+constexpr double kNearby = 4.0;          // m, of keyframes that may see the same from another side
+constexpr double kSameView = 0.3;        // cosine of the angle between their optical axes
+constexpr int kProbation = 3;            // keyframes after which a landmark must have been seen again
+
+/// The turn about the vertical and the shift that carry the odometry's pose into the map's; tilt is the odometry's.
+Transform UprightOffset(const Transform& X_MB, const Transform& X_OB) {
+  const base::Quat q = base::FromYaw(base::Yaw(X_MB.q * X_OB.q.conjugate()));
+  return {q, X_MB.p - q * X_OB.p};
+}
+
+Vec3 OpticalAxis(const Map& map, const Keyframe& keyframe) {
+  return keyframe.X_MB.q * (map.eyes.X_BL.q * Vec3::UnitZ());
+}
+
+/// One motion after the other.
+RelativePose Compose(const RelativePose& a, const RelativePose& b) {
+  RelativePose both;
+  both.X_FT = a.X_FT * b.X_FT;
+  both.sigma = (a.sigma.cwiseAbs2() + b.sigma.cwiseAbs2()).cwiseSqrt();
+  return both;
+}
+
+}  // namespace
+
+Mapper::Mapper(const CameraIntrinsics& left, const MapConfig& config) : camera_(left), config_(config) {}
+
+KeyframeReport Mapper::Add(KeyframeInput input) {
+  KeyframeReport report;
+  auto owned = std::make_unique<Keyframe>();
+  Keyframe& keyframe = *owned;
+  keyframe.id = report.keyframe = static_cast<int>(map_.keyframes.size());
+  keyframe.seq = input.seq;
+  keyframe.stamp = input.stamp;
+  keyframe.X_OB = input.X_OB;
+  keyframe.X_MB = X_MO_ * input.X_OB;
+  map_.eyes = input.eyes;
+  keyframe.up_B = input.X_OB.q.conjugate() * Vec3::UnitZ();
+  keyframe.features = std::move(input.features);
+  keyframe.landmarks.assign(keyframe.features.size(), -1);
+  if (newest_ >= 0 && input.X_OB_previous) {
+    const Keyframe& before = map_.keyframe(newest_);
+    RelativePose motion;
+    motion.X_FT = input.X_OB_previous->Inverse() * input.X_OB;
+    const double way = motion.X_FT.p.norm(), time = (input.stamp - before.stamp).Seconds();
+    const AdjustConfig& a = config_.adjust;
+    motion.sigma << Vec3::Constant(a.motion_position + a.motion_drift * way),
+        Vec3::Constant(a.motion_angle + a.motion_angle_drift * time);
+    keyframe.from_previous = motion;
+    keyframe.previous = newest_;
+    keyframe.X_MB = before.X_MB * motion.X_FT;
+  }
+  map_.keyframes.push_back(std::move(owned));
+  dropped_.emplace_back();
+  if (newest_ >= 0) report.matched = Recognise(keyframe, report);
+  CreateLandmarks(keyframe, report);
+  newest_ = keyframe.id;
+  const int every = config_.adjust.whole_every;
+  if (every > 0 && keyframe.id % every == every - 1) {
+    AdjustWhole(config_.adjust.whole_iterations, 1e-3);
+  } else {
+    AdjustAround(keyframe.id);
+  }
+  X_MO_ = report.X_MO = UprightOffset(keyframe.X_MB, keyframe.X_OB);
+  DropPoorLandmarks(keyframe.id);
+  DropRedundantKeyframes(keyframe.id);
+  return report;
+}
+
+std::vector<int> Mapper::LocalLandmarks(const Keyframe& keyframe) const {
+  std::vector<int> around{newest_};
+  for (const Covisible& c : CovisibleWith(map_, newest_, kLeastShared)) {
+    if (around.size() < kLookAround / 2) around.push_back(c.keyframe);
+  }
+  std::vector<std::pair<double, int>> near;
+  const Vec3 axis = OpticalAxis(map_, keyframe);
+  for (const auto& other : map_.keyframes) {
+    if (!other || other->id == keyframe.id) continue;
+    const double distance = (other->X_MB.p - keyframe.X_MB.p).norm();
+    if (distance < kNearby && OpticalAxis(map_, *other).dot(axis) > kSameView) near.emplace_back(distance, other->id);
+  }
+  std::sort(near.begin(), near.end());
+  for (const auto& [distance, id] : near) {
+    if (around.size() >= kLookAround) break;
+    if (std::find(around.begin(), around.end(), id) == around.end()) around.push_back(id);
+  }
+  std::set<int> landmarks;
+  for (const int id : around) {
+    for (const int l : map_.keyframe(id).landmarks) {
+      if (l >= 0) landmarks.insert(l);
+    }
+  }
+  return {landmarks.begin(), landmarks.end()};
+}
+
+int Mapper::Recognise(Keyframe& keyframe, KeyframeReport& report) {
+  const std::vector<int> landmarks = LocalLandmarks(keyframe);
+  report.looked_for = static_cast<int>(landmarks.size());
+  const FeatureGrid grid(keyframe.features, camera_);
+  std::vector<LandmarkMatch> matches;
+  Transform X_MB = keyframe.X_MB;
+  for (const double radius : {config_.match.radius, config_.match.near_radius}) {
+    matches = FindLandmarks(map_, keyframe, X_MB, landmarks, grid, camera_, radius, config_.match);
+    if (static_cast<int>(matches.size()) < config_.match.least) return 0;
+    const std::optional<Transform> refined = Refine(keyframe, X_MB, matches);
+    if (!refined) return 0;
+    X_MB = *refined;
+  }
+  keyframe.X_MB = X_MB;
+  for (const LandmarkMatch& m : matches) {
+    AddSight(map_, m.landmark, keyframe.id, m.feature);
+    RefreshLandmark(map_, m.landmark);
+  }
+  return static_cast<int>(matches.size());
+}
+
+std::optional<Transform> Mapper::Refine(const Keyframe& keyframe, const Transform& X_MB,
+                                        std::vector<LandmarkMatch>& matches) const {
+  Bundle bundle;
+  bundle.eyes = map_.eyes;
+  bundle.poses.push_back({X_MB, false});
+  bundle.verticals.push_back({0, keyframe.up_B, config_.adjust.vertical});
+  if (keyframe.from_previous) {
+    const Keyframe& before = map_.keyframe(keyframe.previous);
+    bundle.poses.push_back({before.X_MB, true});
+    RelativePose motion = *keyframe.from_previous;
+    motion.from = 1;
+    motion.to = 0;
+    bundle.motions.push_back(motion);
+  }
+  for (const LandmarkMatch& m : matches) {
+    BundlePoint point{map_.landmark(m.landmark).p_M, {}, true};
+    point.sights.push_back(SightOf(keyframe, m.feature, 0, camera_, config_.adjust));
+    bundle.points.push_back(std::move(point));
+  }
+  const BundleOptions options{8, config_.adjust.huber, 1e-4};
+  for (int round = 0; round < 2; ++round) {
+    Adjust(bundle, options);
+    std::vector<LandmarkMatch> kept;
+    std::vector<BundlePoint> points;
+    for (std::size_t i = 0; i < matches.size(); ++i) {
+      const BundlePoint& point = bundle.points[i];
+      const auto r = ResidualOf(bundle.poses[0].X_MB, map_.eyes, point.sights[0], point.p_M);
+      if (!r || r->norm() > config_.adjust.gate) continue;
+      kept.push_back(matches[i]);
+      points.push_back(point);
+    }
+    matches = std::move(kept);
+    bundle.points = std::move(points);
+    if (static_cast<int>(matches.size()) < config_.match.least) return std::nullopt;
+  }
+  return bundle.poses[0].X_MB;
+}
+
+void Mapper::CreateLandmarks(Keyframe& keyframe, KeyframeReport& report) {
+  const Transform X_ML = keyframe.X_MB * map_.eyes.X_BL;
+  for (std::size_t i = 0; i < keyframe.features.size(); ++i) {
+    const KeyframeFeature& feature = keyframe.features[i];
+    if (keyframe.landmarks[i] >= 0 || !(feature.depth > 0.0)) continue;
+    AddLandmark(map_, keyframe.id, static_cast<int>(i), X_ML * Vec3(feature.depth * feature.left.homogeneous()));
+    ++report.created;
+  }
+}
+
+void Mapper::AdjustAround(int id) {
+  std::set<int> moving;
+  const AdjustConfig& config = config_.adjust;
+  for (int k = id; k >= 0 && static_cast<int>(moving.size()) < config.keyframes; k = map_.keyframe(k).previous)
+    moving.insert(k);
+  int others = 0;
+  for (const Covisible& c : CovisibleWith(map_, id, kLeastShared)) {
+    if (others < config.covisible && moving.insert(c.keyframe).second) ++others;
+  }
+  std::vector<int> seen_by(map_.keyframes.size(), 0);
+  for (const int k : moving) {
+    for (const int l : map_.keyframe(k).landmarks) {
+      if (l < 0) continue;
+      for (const Landmark::Sight& s : map_.landmark(l).sights) ++seen_by[static_cast<std::size_t>(s.keyframe)];
+    }
+  }
+  std::vector<std::pair<int, int>> watchers;  // (−shared, id)
+  for (std::size_t k = 0; k < seen_by.size(); ++k) {
+    if (seen_by[k] > 0 && !moving.contains(static_cast<int>(k))) watchers.emplace_back(-seen_by[k], static_cast<int>(k));
+  }
+  std::sort(watchers.begin(), watchers.end());
+  std::set<int> holding;
+  for (const auto& [shared, k] : watchers) {
+    if (static_cast<int>(holding.size()) < config.fixed) holding.insert(k);
+  }
+  if (holding.empty()) {  // a young map hangs on its first keyframe
+    holding.insert(*moving.begin());
+    moving.erase(moving.begin());
+  }
+  if (moving.empty()) return;
+  MapBundle part = MakeBundle(map_, {moving.begin(), moving.end()}, {holding.begin(), holding.end()}, camera_, config);
+  Adjust(part.bundle, {config.iterations, config.huber, 1e-3});
+  TakeOver(part, map_, config.gate);
+}
+
+void Mapper::DropPoorLandmarks(int id) {
+  // Born `kProbation` keyframes ago and seen by its parent alone: noise, or too far to matter.
+  int parent = id;
+  for (int i = 0; i < kProbation && parent >= 0; ++i) parent = map_.keyframe(parent).previous;
+  if (parent < 0) return;
+  for (const int l : std::vector<int>(map_.keyframe(parent).landmarks)) {
+    if (l >= 0 && map_.landmark(l).born == parent && map_.landmark(l).sights.size() < 2) RemoveLandmark(map_, l);
+  }
+}
+
+void Mapper::DropRedundantKeyframes(int id) {
+  int guard = id;
+  std::set<int> recent;
+  for (int i = 0; i < config_.adjust.keyframes && guard >= 0; ++i, guard = map_.keyframe(guard).previous)
+    recent.insert(guard);
+  for (const Covisible& c : CovisibleWith(map_, id, kLeastShared)) {
+    if (c.keyframe == 0 || recent.contains(c.keyframe)) continue;
+    const Keyframe& keyframe = map_.keyframe(c.keyframe);
+    int all = 0, redundant = 0;
+    for (const int l : keyframe.landmarks) {
+      if (l < 0) continue;
+      ++all;
+      redundant += map_.landmark(l).sights.size() > 3 ? 1 : 0;
+    }
+    if (all > 0 && redundant > config_.redundant * all) Drop(c.keyframe);
+  }
+}
+
+void Mapper::Drop(int id) {
+  Keyframe& keyframe = map_.keyframe(id);
+  for (const int l : std::vector<int>(keyframe.landmarks)) {
+    if (l >= 0) RemoveSight(map_, l, id);
+  }
+  int heir = keyframe.previous;
+  for (const auto& other : map_.keyframes) {
+    if (!other || other->previous != id) continue;
+    if (heir < 0) heir = other->id;
+    other->previous = keyframe.previous;
+    if (keyframe.from_previous && other->from_previous) {
+      other->from_previous = Compose(*keyframe.from_previous, *other->from_previous);
+    } else {
+      other->from_previous.reset();
+    }
+  }
+  if (heir < 0) heir = newest_;
+  dropped_[static_cast<std::size_t>(id)] = Dropped{heir, map_.keyframe(heir).X_MB.Inverse() * keyframe.X_MB};
+  map_.keyframes[static_cast<std::size_t>(id)].reset();
+}
+
+Transform Mapper::PoseOf(int id) const {
+  Transform X_KB;  // of the asked one in keyframe `id`
+  while (dropped_[static_cast<std::size_t>(id)]) {
+    const Dropped& step = *dropped_[static_cast<std::size_t>(id)];
+    X_KB = step.X_HB * X_KB;
+    id = step.heir;
+  }
+  return map_.keyframe(id).X_MB * X_KB;
+}
+
+void Mapper::Finish() {
+  for (int round = 0; round < 2; ++round) AdjustWhole(config_.adjust.final_iterations, 1e-5);
+}
+
+void Mapper::AdjustWhole(int iterations, double tolerance) {
+  std::vector<int> all;
+  for (const auto& keyframe : map_.keyframes) {
+    if (keyframe) all.push_back(keyframe->id);
+  }
+  if (all.size() < 2) return;
+  const std::vector<int> first{all.front()};
+  all.erase(all.begin());
+  MapBundle whole = MakeBundle(map_, all, first, camera_, config_.adjust);
+  Adjust(whole.bundle, {iterations, config_.adjust.huber, tolerance});
+  TakeOver(whole, map_, config_.adjust.gate);
+}
+
+}  // namespace alula::stack::slam

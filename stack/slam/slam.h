@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/frames.h"
+#include "base/time.h"
+#include "stack/estimation/odometry.h"
+#include "stack/interface/calibration.h"
+#include "stack/slam/slam_config.h"
+
+namespace alula::stack::slam {
+
+/// Where the body is at an instant, in the map frame.
+struct StampedPose {
+  base::Time stamp;
+  base::Transform X_MB;
+};
+
+/// What came of one frame.
+struct SlamResult {
+  estimation::FrameResult odometry;
+  base::Transform X_MO;  // from the odometry frame to the map, as known now
+};
+
+/// Odometry and map together, in one thread: for recorded data, and as the reference of the stack that runs both as
+/// jobs. Deterministic.
+class Slam {
+ public:
+  /// `X_MB_start`: position and heading of the body at the start. Throws base::InputError where the calibration does
+  /// not hold what the estimator needs.
+  Slam(const Calibration& calibration, const SlamConfig& config, const base::Transform& X_MB_start);
+  ~Slam();
+
+  SlamResult Process(const estimation::FrameInput& frame);
+
+  /// The pose of every frame that had one, after all optimisation. To be asked for once, at the end.
+  std::vector<StampedPose> FinalTrajectory();
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace alula::stack::slam
