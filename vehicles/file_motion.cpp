@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/trajectory_file.h"
 #include "vehicles/spline_fit.h"
-#include "vehicles/trajectory_file.h"
 
 namespace alula::vehicles {
 namespace {
@@ -22,18 +22,18 @@ std::string Text(double value, const char* unit) {
 }
 
 /// The file's poses as those of our body in our world.
-std::vector<TimedPose> BodyPoses(const FileMotion& config) {
-  std::vector<TimedPose> poses = ReadTrajectory(config.path);
+std::vector<base::StampedPose> BodyPoses(const FileMotion& config) {
+  std::vector<base::StampedPose> poses = base::ReadTrajectory(config.path);
   const Vec3& a = config.frame_orientation;
   const base::Transform X_WF{base::FromYaw(config.yaw), config.origin};
   const base::Transform X_SB =
       base::Transform{base::FromYawPitchRoll(a.x(), a.y(), a.z()), config.frame_position}.Inverse();
-  for (TimedPose& pose : poses) pose.X_FS = X_WF * pose.X_FS * X_SB;
+  for (base::StampedPose& pose : poses) pose.X_FS = X_WF * pose.X_FS * X_SB;
   return poses;
 }
 
 /// A gap of two knot intervals still leaves every control point a sample nearby.
-void RefuseGaps(const FileMotion& config, const std::vector<TimedPose>& poses) {
+void RefuseGaps(const FileMotion& config, const std::vector<base::StampedPose>& poses) {
   for (std::size_t i = 1; i < poses.size(); ++i) {
     const double gap = (poses[i].time - poses[i - 1].time).Seconds();
     if (gap <= 2 * config.knot_interval) continue;
@@ -44,10 +44,10 @@ void RefuseGaps(const FileMotion& config, const std::vector<TimedPose>& poses) {
 }
 
 /// A body that stands still and then goes at once would feel an endless jolt.
-void RefuseFlyingStart(const FileMotion& config, const std::vector<TimedPose>& poses) {
+void RefuseFlyingStart(const FileMotion& config, const std::vector<base::StampedPose>& poses) {
   constexpr double kStandingSpeed = 0.05,
                    kStandingRate = 0.05;  // m/s, rad/s: smoothed over one knot interval, ≤ 0.5 m/s²
-  const auto later = std::find_if(poses.begin() + 1, poses.end() - 1, [&](const TimedPose& pose) {
+  const auto later = std::find_if(poses.begin() + 1, poses.end() - 1, [&](const base::StampedPose& pose) {
     return (pose.time - poses.front().time).Seconds() >= config.knot_interval;
   });
   const double dt = (later->time - poses.front().time).Seconds();
@@ -62,7 +62,7 @@ void RefuseFlyingStart(const FileMotion& config, const std::vector<TimedPose>& p
 }  // namespace
 
 FittedMotion::FittedMotion(const FileMotion& config, double standstill) : standstill_(standstill) {
-  const std::vector<TimedPose> poses = BodyPoses(config);
+  const std::vector<base::StampedPose> poses = BodyPoses(config);
   RefuseGaps(config, poses);
   if (standstill > 0) RefuseFlyingStart(config, poses);
   duration_ = (poses.back().time - poses.front().time).Seconds();
@@ -82,7 +82,7 @@ FittedMotion::FittedMotion(const FileMotion& config, double standstill) : stands
   const double period = duration_ / static_cast<double>(poses.size() - 1);
   const int standing = static_cast<int>(standstill / period);
   for (int i = 0; i < standing + static_cast<int>(poses.size()); ++i) {
-    const TimedPose& pose = poses[static_cast<std::size_t>(std::max(0, i - standing))];
+    const base::StampedPose& pose = poses[static_cast<std::size_t>(std::max(0, i - standing))];
     const double t = i < standing ? (i - standing) * period : (pose.time - poses.front().time).Seconds();
     u.push_back(std::clamp(Parameter(t), 0.0, static_cast<double>(segments)));
     p.push_back(pose.X_FS.p);

@@ -1,13 +1,11 @@
 #include "scenarios/dataset/euroc_reader.h"
 
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 #include "base/error.h"
 #include "base/text_rows.h"
-#include "scenarios/dataset/png.h"
+#include "scenarios/dataset/internal/files.h"
 #include "scenarios/dataset/sensor_yaml.h"
 
 namespace alula::scenarios::dataset {
@@ -17,17 +15,8 @@ namespace {
 using base::TextRow;
 
 constexpr stack::SensorId kImu{1};
-constexpr int kFirstCamera = 10, kMostCameras = 64;
-
-std::string ReadText(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  std::error_code error;
-  if (!stream || fs::is_directory(file, error) || !(text << stream.rdbuf())) {
-    throw base::InputError({file.string()}, "", "cannot be read; a folder of a sensor holds sensor.yaml and data.csv");
-  }
-  return text.str();
-}
+constexpr int kMostCameras = 64;
+constexpr std::string_view kWanted = "a folder of a sensor holds sensor.yaml and data.csv";
 
 base::Vec3 Vector(const TextRow& row, std::size_t first, std::string_view name) {
   return {row.Number(first, name), row.Number(first + 1, name), row.Number(first + 2, name)};
@@ -35,9 +24,7 @@ base::Vec3 Vector(const TextRow& row, std::size_t first, std::string_view name) 
 
 /// The row's stamp, later than the last one.
 base::Time NextTime(const TextRow& row, std::optional<base::Time> last) {
-  const base::Time time = row.TimeInNanoseconds(0, "timestamp");
-  if (last && time <= *last) row.Fail("timestamp", "is not later than that of the row before");
-  return time;
+  return internal::Later(row, row.TimeInNanoseconds(0, "timestamp"), last);
 }
 
 std::vector<ImageFile> ReadImageList(const fs::path& folder, int& missing) {
@@ -47,13 +34,7 @@ std::vector<ImageFile> ReadImageList(const fs::path& folder, int& missing) {
     last = NextTime(row, last);
     const fs::path name(row.Word(1, "filename"));
     if (name.empty() || name != name.filename()) row.Fail("filename", "must be the plain name of a file in data/");
-    const fs::path file = folder / "data" / name;
-    std::error_code error;
-    if (fs::is_regular_file(file, error)) {
-      images.push_back({*last, file});
-    } else {
-      ++missing;
-    }
+    internal::AddIfThere({*last, folder / "data" / name}, images, missing);
   });
   return images;
 }
@@ -99,14 +80,14 @@ Recording ReadEuroc(const fs::path& folder) {
     const fs::path camera_folder = root / ("cam" + std::to_string(i));
     if (!fs::is_directory(camera_folder, error)) break;
     const fs::path yaml = camera_folder / "sensor.yaml";
-    calibration.cameras.push_back(ReadCameraYaml(ReadText(yaml), yaml.string()));
-    calibration.cameras.back().sensor = static_cast<stack::SensorId>(kFirstCamera + i);
+    calibration.cameras.push_back(ReadCameraYaml(internal::ReadWhole(yaml, kWanted), yaml.string()));
+    calibration.cameras.back().sensor = internal::CameraId(i);
     recording.images.push_back(ReadImageList(camera_folder, recording.missing_images));
   }
   if (calibration.cameras.size() >= 2) calibration.stereo = {0, 1};
   if (fs::is_directory(root / "imu0", error)) {
     const fs::path yaml = root / "imu0" / "sensor.yaml";
-    calibration.imu = ReadImuYaml(ReadText(yaml), yaml.string());
+    calibration.imu = ReadImuYaml(internal::ReadWhole(yaml, kWanted), yaml.string());
     calibration.imu->sensor = kImu;
     recording.imu = ReadImuRows(root / "imu0" / "data.csv");
   }
@@ -117,18 +98,6 @@ Recording ReadEuroc(const fs::path& folder) {
   const fs::path truth = root / "state_groundtruth_estimate0" / "data.csv";
   if (fs::exists(truth, error)) recording.truth = ReadTruthRows(truth);
   return recording;
-}
-
-stack::Image LoadImage(const ImageFile& image, const stack::CameraCalibration& camera) {
-  stack::Image loaded = ToImage(ReadPng(image.file), image.file.string());
-  const stack::CameraIntrinsics& c = camera.intrinsics;
-  if (loaded.width != c.width || loaded.height != c.height) {
-    throw base::InputError({image.file.string()}, "",
-                           "is " + std::to_string(loaded.width) + "x" + std::to_string(loaded.height) +
-                               " pixels; sensor.yaml says " + std::to_string(c.width) + "x" + std::to_string(c.height));
-  }
-  loaded.exposure_start = image.captured;
-  return loaded;
 }
 
 }  // namespace alula::scenarios::dataset

@@ -13,8 +13,4 @@ namespace alula::scenarios::dataset {
 /// Throws base::InputError with file and line for what is broken, not ascending in time or missing.
 Recording ReadEuroc(const std::filesystem::path& folder);
 
-/// One image of a recording. Throws base::InputError where it is broken or not of the size that the camera's
-/// calibration says.
-stack::Image LoadImage(const ImageFile& image, const stack::CameraCalibration& camera);
-
 }  // namespace alula::scenarios::dataset

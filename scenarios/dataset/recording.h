@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
+#include <cstdint>
 #include <filesystem>
-#include <string>
+#include <optional>
 #include <vector>
 
 #include "base/frames.h"
@@ -17,7 +17,8 @@ struct ImuReading {
   stack::ImuSample sample;
 };
 
-/// What is true of a recording's body B at an instant. Biases are what the IMU adds to its readings, in its axes.
+/// What is true of a recording's body B at an instant; zero where the layout does not say it. Biases are what the IMU
+/// adds to its readings, in its axes.
 struct BodyTruth {
   base::Time time;
   base::Transform X_WB;
@@ -33,14 +34,28 @@ struct ImageFile {
   std::filesystem::path file;
 };
 
-/// A recorded sequence. Its body frame B is that of the recording (EuRoC: the IMU's), its times count from an epoch of
-/// its own.
+/// How a recording lies on the disk; layouts.h has what each is.
+enum class Layout : std::uint8_t { kEuroc, kKitti, kTum };
+
+/// Of a recording with a depth camera: which picture its images belong to and what they hold.
+struct DepthStream {
+  std::size_t camera = 0;          // index into Recording::calibration.cameras
+  std::size_t picture = 0;         // the camera whose images go with it
+  double values_per_metre = 1000;  // of the 16-bit files
+  /// For each image of `picture` the index of the depth image nearest in time; none where there is none near enough.
+  std::vector<std::optional<std::size_t>> of_picture;
+};
+
+/// A recorded sequence. Its body frame B is that of the recording (EuRoC: the IMU's; KITTI and TUM: forward-left-up at
+/// the optical centre of the first camera), its times count from an epoch of its own.
 struct Recording {
-  stack::Calibration calibration;              // cameras as the files number them; the first two are the stereo pair
+  Layout layout = Layout::kEuroc;
+  stack::Calibration calibration;              // cameras as the files number them
   std::vector<std::vector<ImageFile>> images;  // of each camera, ascending in time
-  std::vector<ImuReading> imu;                 // ascending in time
-  std::vector<BodyTruth> truth;                // ascending in time; empty where the recording has none
-  int missing_images = 0;                      // stamps without a file
+  std::optional<DepthStream> depth;
+  std::vector<ImuReading> imu;   // ascending in time
+  std::vector<BodyTruth> truth;  // ascending in time; empty where the recording has none
+  int missing_images = 0;        // stamps without a file
 };
 
 }  // namespace alula::scenarios::dataset

@@ -7,10 +7,12 @@
 
 #include "base/config.h"
 #include "base/error.h"
+#include "scenarios/dataset/internal/matrix_text.h"
 
 namespace alula::scenarios::dataset {
 namespace {
 
+using internal::MatrixText;
 using stack::DistortionModel;
 
 /// The first line of every file, as EuRoC has it (OpenCV's FileStorage asks for it; to YAML it is an unknown
@@ -38,38 +40,6 @@ std::string Quoted(std::string_view text) {
 std::string General(std::string_view type, std::string_view comment) {
   return fmt::format("{}# General sensor definitions.\nsensor_type: {}\ncomment: {}\n\n", kHeader, type,
                      Quoted(comment));
-}
-
-struct MatrixText {
-  int cols = 0, rows = 0;
-  std::vector<double> data;
-};
-void Describe(base::Description& d, MatrixText& c) {
-  d.Field("cols", c.cols, {.meaning = "columns", .min = 4, .max = 4, .required = true});
-  d.Field("rows", c.rows, {.meaning = "rows", .min = 4, .max = 4, .required = true});
-  d.Field("data", c.data, {.meaning = "row by row", .required = true});
-  d.Check("data", [&c]() -> std::string {
-    if (c.data.size() != 16) return "has " + std::to_string(c.data.size()) + " numbers; a 4x4 matrix has 16";
-    base::Mat3 R;
-    for (int r = 0; r < 3; ++r) {
-      for (int k = 0; k < 3; ++k) R(r, k) = c.data[static_cast<std::size_t>(4 * r + k)];
-    }
-    constexpr double kOrthonormal = 1e-3;  // four digits, as some calibrations are printed
-    const bool bottom = c.data[12] == 0 && c.data[13] == 0 && c.data[14] == 0 && c.data[15] == 1;
-    const bool rotation =
-        (R * R.transpose() - base::Mat3::Identity()).cwiseAbs().maxCoeff() < kOrthonormal && R.determinant() > 0;
-    return bottom && rotation ? "" : "is no rigid transform (rotation, position, and 0 0 0 1 at the bottom)";
-  });
-}
-
-base::Transform ToTransform(const MatrixText& matrix) {
-  base::Mat3 R;
-  base::Vec3 p;
-  for (int r = 0; r < 3; ++r) {
-    for (int k = 0; k < 3; ++k) R(r, k) = matrix.data[static_cast<std::size_t>(4 * r + k)];
-    p[r] = matrix.data[static_cast<std::size_t>(4 * r + 3)];
-  }
-  return {base::Quat(R).normalized(), p};
 }
 
 /// The keys of all sensors.
@@ -129,17 +99,6 @@ void Describe(base::Description& d, ImuText& c) {
           {.meaning = "m/s^3/sqrt(Hz)", .min = 0, .required = true});
 }
 
-/// The fraction with the smallest denominator that prints as `hz`: 29.97002997002997 is 30000/1001.
-base::Rate ToRate(double hz) {
-  for (std::int64_t seconds = 1; seconds <= 10'000; ++seconds) {
-    const double cycles = hz * static_cast<double>(seconds);
-    if (std::round(cycles) >= 1 && std::abs(cycles - std::round(cycles)) <= 1e-12 * cycles) {
-      return {std::llround(cycles), seconds};
-    }
-  }
-  return {std::llround(hz * 1e6), 1'000'000};
-}
-
 template <typename Text>
 Text Read(std::string_view text, const std::string& file_name) {
   // The directive is blanked, so that lines keep their numbers.
@@ -196,8 +155,8 @@ stack::CameraCalibration ReadCameraYaml(std::string_view text, const std::string
   const CameraText read = Read<CameraText>(text, file_name);
   stack::CameraCalibration camera;
   camera.name = read.sensor.comment;
-  camera.X_BC = ToTransform(read.sensor.T_BS);
-  camera.rate = ToRate(read.sensor.rate_hz);
+  camera.X_BC = internal::ToTransform(read.sensor.T_BS);
+  camera.rate = internal::ToRate(read.sensor.rate_hz);
   camera.time_offset = base::Seconds(read.time_shift);
   camera.row_delay = base::Seconds(read.line_delay);
   stack::CameraIntrinsics& c = camera.intrinsics;
@@ -216,8 +175,8 @@ stack::ImuCalibration ReadImuYaml(std::string_view text, const std::string& file
   const ImuText read = Read<ImuText>(text, file_name);
   stack::ImuCalibration imu;
   imu.name = read.sensor.comment;
-  imu.X_BI = ToTransform(read.sensor.T_BS);
-  imu.rate = ToRate(read.sensor.rate_hz);
+  imu.X_BI = internal::ToTransform(read.sensor.T_BS);
+  imu.rate = internal::ToRate(read.sensor.rate_hz);
   imu.noise = read.noise;
   return imu;
 }

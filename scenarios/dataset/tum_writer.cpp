@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/trajectory_file.h"
 #include "scenarios/dataset/dataset_writer.h"
 #include "scenarios/dataset/png.h"
 #include "scenarios/dataset/sensor_yaml.h"
@@ -15,13 +16,6 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kPerMillimetre = 5;  // TUM: 5000 a metre
-
-/// Seconds, to the nanosecond.
-std::string Stamp(base::Time time) {
-  const char* sign = time.ns < 0 ? "-" : "";
-  const std::int64_t ns = std::abs(time.ns);
-  return fmt::format("{}{}.{:09}", sign, ns / 1'000'000'000, ns % 1'000'000'000);
-}
 
 std::vector<std::uint16_t> TumDepth(const std::vector<std::uint16_t>& millimetres) {
   std::vector<std::uint16_t> values(millimetres.size());
@@ -43,7 +37,7 @@ class ImageFolder {
 
   void Add(base::Time time, std::string_view png) {
     times_.push_back(time);
-    sim::StreamFile file(root_ / name_ / (Stamp(time) + ".png"));
+    sim::StreamFile file(root_ / name_ / (base::DecimalSeconds(time) + ".png"));
     file.Write(png);
     file.Close();
   }
@@ -53,7 +47,8 @@ class ImageFolder {
     times_.erase(std::unique(times_.begin(), times_.end()), times_.end());
     sim::StreamFile list(root_ / (name_ + ".txt"));
     list.Write(header_);
-    for (const base::Time time : times_) list.Write(fmt::format("{0} {1}/{0}.png\n", Stamp(time), name_));
+    for (const base::Time time : times_)
+      list.Write(fmt::format("{0} {1}/{0}.png\n", base::DecimalSeconds(time), name_));
     list.Close();
   }
 
@@ -89,15 +84,11 @@ class TumWriter final : public DatasetWriter {
     } else if (const auto* sample = std::get_if<stack::ImuSample>(&m.data)) {
       if (m.sensor != imu_) return;
       const base::Vec3& f = sample->specific_force;
-      accelerometer_.Write(fmt::format("{} {} {} {}\n", Stamp(m.captured), f.x(), f.y(), f.z()));
+      accelerometer_.Write(fmt::format("{} {} {} {}\n", base::DecimalSeconds(m.captured), f.x(), f.y(), f.z()));
     }
   }
 
-  void Add(const BodyTruth& truth) override {
-    const base::Transform X = truth.X_WB * picture_.X_BC;
-    truth_.Write(fmt::format("{} {} {} {} {} {} {} {}\n", Stamp(truth.time), X.p.x(), X.p.y(), X.p.z(), X.q.x(),
-                             X.q.y(), X.q.z(), X.q.w()));
-  }
+  void Add(const BodyTruth& truth) override { truth_.Write(base::TumRow({truth.time, truth.X_WB * picture_.X_BC})); }
 
   void Finish() override {
     pictures_.Finish();

@@ -6,10 +6,10 @@
 
 #include "base/error.h"
 #include "base/text_rows.h"
+#include "base/trajectory_file.h"
 #include "scenarios/dataset/png.h"
 #include "scenarios/dataset/sensor_yaml.h"
 #include "tests/fuzz/expect.h"
-#include "vehicles/trajectory_file.h"
 
 namespace alula::fuzz {
 namespace {
@@ -43,7 +43,7 @@ void ReadDatasetFile(const std::uint8_t* data, std::size_t size) {
   });
   Try([&] {
     std::istringstream rows{std::string(text)};
-    vehicles::ReadTrajectory(rows, "trajectory");
+    base::ReadTrajectory(rows, "trajectory");
   });
 }
 

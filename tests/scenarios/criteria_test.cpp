@@ -288,7 +288,7 @@ double BruteForceRmse(const std::vector<Vec3>& e, const std::vector<Vec3>& t) {
 TEST(FourDofAlignment, AgreesWithBruteForce) {
   base::RandomStream random(4, "test/ate");
   std::vector<Vec3> estimate, truth;
-  FourDofAlignment alignment;
+  trajectory::FourDofAlignment alignment;
   double squares = 0;
   for (int i = 0; i < 30; ++i) {
     truth.push_back({random.Uniform(-9, 9), random.Uniform(-6, 6), random.Uniform(0, 3)});

@@ -12,8 +12,8 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "base/trajectory_file.h"
 #include "vehicles/spline_fit.h"
-#include "vehicles/trajectory_file.h"
 
 namespace alula::vehicles {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "scenarios/dataset/dataset_writer.h"
 #include "scenarios/dataset/euroc_reader.h"
+#include "scenarios/dataset/image_file.h"
 #include "tests/scenarios/dataset/synthetic.h"
 #include "tests/scenarios/temporary_folder.h"
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "scenarios/dataset/euroc_reader.h"
+#include "scenarios/dataset/image_file.h"
 
 namespace alula::scenarios::dataset {
 namespace {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "scenarios/dataset/euroc_reader.h"
+#include "scenarios/dataset/image_file.h"
 #include "stack/interface/camera_model.h"
 
 namespace alula::scenarios::dataset::testing {

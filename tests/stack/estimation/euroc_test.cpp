@@ -4,6 +4,7 @@
 #include <opencv2/core.hpp>
 
 #include "scenarios/dataset/euroc_reader.h"
+#include "scenarios/dataset/image_file.h"
 #include "stack/estimation/odometry.h"
 #include "tests/stack/estimation/data.h"
 #include "tests/stack/estimation/flight.h"

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string_view>
+
+#include "scenarios/dataset/recording.h"
+
+namespace alula::scenarios::dataset {
+
+/// What a folder holds, by its files: mav0/, cam0/ or imu0/ (EuRoC), calib.txt and an image_N/ (KITTI odometry),
+/// rgb.txt (TUM RGB-D); none where it is none of these.
+std::optional<Layout> LayoutOf(const std::filesystem::path& folder);
+
+/// "EuRoC ASL", "KITTI odometry", "TUM RGB-D".
+std::string_view NameOf(Layout layout);
+
+/// Reads a sequence in whichever of the layouts it is. Images are read when they are wanted; stamps whose file is
+/// missing are passed over and counted, files without a stamp are not looked at. Throws base::InputError with file and
+/// line for what is broken, and where the folder is missing or in no layout.
+Recording OpenRecording(const std::filesystem::path& folder);
+
+}  // namespace alula::scenarios::dataset
