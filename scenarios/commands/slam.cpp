@@ -8,7 +8,7 @@
 #include "scenarios/campaign/case.h"
 #include "scenarios/commands/flight.h"
 #include "scenarios/commands/verbs.h"
-#include "scenarios/dataset/euroc_reader.h"
+#include "scenarios/dataset/layouts.h"
 #include "scenarios/exit_codes.h"
 #include "scenarios/progress.h"
 #include "scenarios/slam/flight_feed.h"
@@ -54,7 +54,7 @@ int WatchFlight(const fs::path& file, std::uint64_t seed, const CommandLine& lin
 }
 
 int WatchRecording(const fs::path& folder, const CommandLine& line, nlohmann::ordered_json& all) {
-  const dataset::Recording recording = dataset::ReadEuroc(folder);
+  const dataset::Recording recording = dataset::OpenRecording(folder);
   const std::string name = fs::canonical(folder).filename().string();
   const std::vector<slam::Variant> variants = slam::VariantsOf({}, line.overrides, line.variants, 1);
   Progress progress(name, slam::SpanOf(recording), line.talks());

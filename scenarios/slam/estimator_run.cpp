@@ -1,19 +1,11 @@
 #include "scenarios/slam/estimator_run.h"
 
 #include <algorithm>
-#include <ctime>
 #include <utility>
 
+#include "base/processor_clock.h"
+
 namespace alula::scenarios::slam {
-namespace {
-
-double ProcessorMs() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
-}  // namespace
 
 EstimatorRun::EstimatorRun(const Variant& variant, const stack::Calibration& calibration,
                            const base::Transform& X_MB_start)
@@ -22,9 +14,10 @@ EstimatorRun::EstimatorRun(const Variant& variant, const stack::Calibration& cal
 }
 
 void EstimatorRun::Feed(const stack::estimation::FrameInput& frame) {
-  const double begin = ProcessorMs();
+  const double begin = base::ProcessorMs();
   const stack::slam::SlamResult given = slam_->Process(frame);
-  result_.frame_ms.push_back(ProcessorMs() - begin);
+  result_.frame_ms.push_back(base::ProcessorMs() - begin - given.map_ms);
+  if (given.map_ms > 0.0) result_.keyframe_ms.push_back(given.map_ms);
   result_.frames.push_back(frame.stamp);
   const stack::estimation::FrameResult& odometry = given.odometry;
   result_.resets = odometry.reset_counter;
@@ -37,9 +30,9 @@ void EstimatorRun::Feed(const stack::estimation::FrameInput& frame) {
 }
 
 EstimatorResult EstimatorRun::Finish() {
-  const double begin = ProcessorMs();
+  const double begin = base::ProcessorMs();
   result_.finished = slam_->FinalTrajectory();
-  result_.finish_ms = ProcessorMs() - begin;
+  result_.finish_ms = base::ProcessorMs() - begin;
   return std::move(result_);
 }
 

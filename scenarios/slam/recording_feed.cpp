@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/error.h"
-#include "scenarios/dataset/euroc_reader.h"
+#include "scenarios/dataset/image_file.h"
 
 namespace alula::scenarios::slam {
 namespace {
@@ -49,9 +49,9 @@ base::Duration SpanOf(const Recording& recording) {
   return recording.images.front().back().captured - Time{} - EpochOf(recording);
 }
 
-std::vector<stack::slam::StampedPose> TruthOf(const Recording& recording) {
+std::vector<base::StampedPose> TruthOf(const Recording& recording) {
   const Duration epoch = EpochOf(recording);
-  std::vector<stack::slam::StampedPose> truth;
+  std::vector<base::StampedPose> truth;
   for (const dataset::BodyTruth& state : recording.truth) truth.push_back({state.time - epoch, state.X_WB});
   return truth;
 }
@@ -78,8 +78,8 @@ std::vector<EstimatorResult> FeedRecording(const Recording& recording, const std
     frame.seq = seq++;
     const Time stamp = lefts[i].captured + offset;
     frame.stamp = stamp - epoch;
-    frame.left = dataset::LoadImage(lefts[i], recording.calibration.cameras[l]);
-    frame.right = dataset::LoadImage(*right, recording.calibration.cameras[r]);
+    frame.left = dataset::ToGrey(dataset::LoadImage(lefts[i], recording.calibration.cameras[l]));
+    frame.right = dataset::ToGrey(dataset::LoadImage(*right, recording.calibration.cameras[r]));
     for (; used < recording.imu.size() && (used == 0 || recording.imu[used - 1].time < stamp); ++used) {
       const dataset::ImuReading& reading = recording.imu[used];
       frame.imu.push_back({reading.time - epoch, reading.sample.angular_velocity, reading.sample.specific_force});

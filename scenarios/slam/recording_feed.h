@@ -17,6 +17,6 @@ std::vector<EstimatorResult> FeedRecording(const dataset::Recording& recording, 
 base::Duration SpanOf(const dataset::Recording& recording);
 
 /// What is true of a recording, on the estimators' clock.
-std::vector<stack::slam::StampedPose> TruthOf(const dataset::Recording& recording);
+std::vector<base::StampedPose> TruthOf(const dataset::Recording& recording);
 
 }  // namespace alula::scenarios::slam

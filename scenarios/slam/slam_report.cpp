@@ -2,11 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "scenarios/criteria/ate.h"
+#include "scenarios/trajectory/trajectory_report.h"
 #include "sim/run_folder.h"
 
 namespace alula::scenarios::slam {
@@ -14,54 +14,36 @@ namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::ordered_json;
-using stack::slam::StampedPose;
 
-/// The truth at a time, between its neighbours; none outside.
-std::optional<base::Transform> TruthAt(const std::vector<StampedPose>& truth, base::Time time) {
-  const auto it = std::lower_bound(truth.begin(), truth.end(), time,
-                                   [](const StampedPose& pose, base::Time t) { return pose.stamp < t; });
-  if (it == truth.end() || (it == truth.begin() && it->stamp != time)) return std::nullopt;
-  if (it->stamp == time) return it->X_MB;
-  const StampedPose& before = *(it - 1);
-  const double share = (time - before.stamp).Seconds() / (it->stamp - before.stamp).Seconds();
-  return base::Transform{before.X_MB.q.slerp(share, it->X_MB.q), before.X_MB.p + share * (it->X_MB.p - before.X_MB.p)};
-}
-
-ordered_json FiguresOf(const std::vector<StampedPose>& estimate, const std::vector<StampedPose>& truth) {
-  FourDofAlignment pairs;
-  for (const StampedPose& pose : estimate) {
-    if (const auto at = TruthAt(truth, pose.stamp)) pairs.Add(pose.X_MB.p, at->p);
+/// All figures of an estimator, as numbers with names.
+ordered_json FiguresOf(const EstimatorResult& result, const SlamReport& report) {
+  const trajectory::ReportRequest request{result.frames, false};
+  ordered_json figures;
+  for (const auto& [name, poses] : {std::pair{"online", &result.online}, std::pair{"final", &result.finished}}) {
+    const trajectory::NamedReport named{name, trajectory::Judge(*poses, report.truth, request)};
+    for (const auto& [key, value] : trajectory::MetricsOf(named)) figures[key] = value;
   }
-  ordered_json out;
-  out["poses"] = estimate.size();
-  if (pairs.count() > 0) {
-    out["ate_4dof_m"] = pairs.AlignedRmse();
-    out["ate_unaligned_m"] = pairs.UnalignedRmse();
-  }
-  return out;
+  return figures;
 }
 
-double Quantile(std::vector<double> values, double share) {
-  if (values.empty()) return 0.0;
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
+void AddTimes(const std::string& name, const std::vector<double>& ms, ordered_json& figures) {
+  if (ms.empty()) return;
+  const trajectory::Statistics times = trajectory::StatisticsOf(ms);
+  figures[name + "_mean_ms"] = times.mean;
+  figures[name + "_median_ms"] = times.median;
+  figures[name + "_p99_ms"] = times.p99;
 }
 
-std::string Tum(const std::vector<StampedPose>& poses) {
+std::string Tum(const std::vector<base::StampedPose>& poses) {
   std::string text;
-  for (const StampedPose& pose : poses) {
-    const base::Transform& X = pose.X_MB;
-    text += fmt::format("{:.9f} {:.6f} {:.6f} {:.6f} {:.8f} {:.8f} {:.8f} {:.8f}\n", pose.stamp.Seconds(), X.p.x(),
-                        X.p.y(), X.p.z(), X.q.x(), X.q.y(), X.q.z(), X.q.w());
-  }
+  for (const base::StampedPose& pose : poses) text += base::TumRow(pose);
   return text;
 }
 
 }  // namespace
 
 SlamReport Judge(const std::string& name, std::uint64_t seed, std::vector<EstimatorResult> results,
-                 std::vector<StampedPose> truth) {
+                 std::vector<base::StampedPose> truth) {
   return {name, seed, std::move(results), std::move(truth)};
 }
 
@@ -83,34 +65,49 @@ ordered_json ToJson(const SlamReport& report) {
   json["seed"] = report.seed;
   ordered_json& all = json["estimators"] = ordered_json::array();
   for (const EstimatorResult& result : report.results) {
-    ordered_json one;
-    one["name"] = result.name;
-    one["frames"] = result.frames.size();
-    one["online"] = FiguresOf(result.online, report.truth);
-    one["final"] = FiguresOf(result.finished, report.truth);
-    one["frame_median_ms"] = Quantile(result.frame_ms, 0.5);
-    one["frame_p99_ms"] = Quantile(result.frame_ms, 0.99);
-    one["finish_ms"] = result.finish_ms;
-    one["resets"] = result.resets;
-    one["notes"] = result.notes;
-    all.push_back(std::move(one));
+    ordered_json figures = FiguresOf(result, report);
+    figures["images"] = result.frames.size();
+    figures["resets"] = result.resets;
+    AddTimes("frame", result.frame_ms, figures);
+    AddTimes("keyframe", result.keyframe_ms, figures);
+    figures["finish_ms"] = result.finish_ms;
+    all.push_back({{"name", result.name}, {"figures", std::move(figures)}, {"notes", result.notes}});
   }
   return json;
 }
 
 std::string ToTable(const ordered_json& report) {
-  std::string text = fmt::format("{} (seed {})\n", report["name"].get<std::string>(), report["seed"].get<std::uint64_t>());
+  constexpr std::array<std::array<const char*, 3>, 11> kColumns{{{"ATE online", "ate_online_m", "m"},
+                                                                {"final", "ate_final_m", "m"},
+                                                                {"SE(3) onl.", "ate_se3_online_m", "m"},
+                                                                {"final", "ate_se3_final_m", "m"},
+                                                                {"as is onl.", "ate_unaligned_online_m", "m"},
+                                                                {"final", "ate_unaligned_final_m", "m"},
+                                                                {"complete", "completeness_online", ""},
+                                                                {"resets", "resets", ""},
+                                                                {"frame", "frame_median_ms", "ms"},
+                                                                {"p99", "frame_p99_ms", "ms"},
+                                                                {"mean", "frame_mean_ms", "ms"}}};
+  std::string text =
+      fmt::format("{}, seed {}\n  {:16}", report["name"].get<std::string>(), report["seed"].get<std::uint64_t>(), "");
+  for (const auto& [title, key, unit] : kColumns) text += fmt::format(" {:>10}", title);
+  text += fmt::format("\n  {:16}", "");
+  for (const auto& [title, key, unit] : kColumns) text += fmt::format(" {:>10}", unit);
+  text += "\n";
   for (const ordered_json& one : report["estimators"]) {
-    const auto number = [&one](const char* which, const char* key) {
-      return one[which].contains(key) ? fmt::format("{:.3f}", one[which][key].get<double>()) : std::string("-");
-    };
-    text += fmt::format("  {:12} ATE online {} final {} m; unaligned {} / {}; poses {} of {}; {:.1f} ms, p99 {:.1f}; resets {}\n",
-                        one["name"].get<std::string>(), number("online", "ate_4dof_m"), number("final", "ate_4dof_m"),
-                        number("online", "ate_unaligned_m"), number("final", "ate_unaligned_m"),
-                        one["online"]["poses"].get<std::size_t>(), one["frames"].get<std::size_t>(),
-                        one["frame_median_ms"].get<double>(), one["frame_p99_ms"].get<double>(),
-                        one["resets"].get<int>());
-    for (const auto& note : one["notes"]) text += fmt::format("    {}\n", note.get<std::string>());
+    text += fmt::format("  {:16}", one["name"].get<std::string>());
+    const ordered_json& figures = one["figures"];
+    for (const auto& [title, key, unit] : kColumns) {
+      if (!figures.contains(key)) {
+        text += fmt::format(" {:>10}", "-");
+      } else if (figures[key].is_number_integer()) {
+        text += fmt::format(" {:>10}", figures[key].get<std::int64_t>());
+      } else {
+        text += fmt::format(" {:>10.3f}", figures[key].get<double>());
+      }
+    }
+    text += "\n";
+    for (const auto& note : one["notes"]) text += fmt::format("    said: {}\n", note.get<std::string>());
   }
   return text;
 }

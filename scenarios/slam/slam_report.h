@@ -15,11 +15,11 @@ struct SlamReport {
   std::string name;
   std::uint64_t seed = 1;
   std::vector<EstimatorResult> results;
-  std::vector<stack::slam::StampedPose> truth;  // empty: only times and completeness are told
+  std::vector<base::StampedPose> truth;  // empty: only times and completeness are told
 };
 
 SlamReport Judge(const std::string& name, std::uint64_t seed, std::vector<EstimatorResult> results,
-                 std::vector<stack::slam::StampedPose> truth);
+                 std::vector<base::StampedPose> truth);
 
 /// truth.tum, and of each estimator estimate.tum and estimate_final.tum in a folder of its name; slam.json.
 void WriteFiles(const SlamReport& report, const std::filesystem::path& folder);

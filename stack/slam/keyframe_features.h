@@ -4,14 +4,12 @@
 #include <vector>
 
 #include "base/frames.h"
-#include "stack/features/descriptor.h"
+#include "stack/features/orb.h"
 #include "stack/features/stereo_rig.h"
 #include "stack/features/stereo_tracker_config.h"
 #include "stack/interface/measurement.h"
 
 namespace alula::stack::slam {
-
-inline constexpr double kLevelScale = 1.2;  // from one level of the image pyramid to the next
 
 /// A keypoint as a keyframe remembers it.
 struct KeyframeFeature {
@@ -19,13 +17,13 @@ struct KeyframeFeature {
   base::Vec2 left = base::Vec2::Zero();   // normalised, left camera
   std::optional<base::Vec2> right;        // normalised, right camera
   double depth = 0.0;                     // m by stereo, 0 where unknown
-  int level = 0;                          // of the pyramid
+  int octave = 0;                         // pyramid level that it was found on
   features::Descriptor descriptor{};
 };
 using KeyframeFeatures = std::vector<KeyframeFeature>;
 
-/// At most `count` ORB keypoints of the left image, matched into the right one.
-KeyframeFeatures FindKeyframeFeatures(const Image& left, const Image& right, const features::StereoRig& rig, int count,
-                                      const features::StereoTrackerConfig& config);
+/// ORB keypoints of the left image, matched into the right one.
+KeyframeFeatures FindKeyframeFeatures(const Image& left, const Image& right, const features::StereoRig& rig,
+                                      const features::OrbConfig& orb, const features::StereoTrackerConfig& stereo);
 
 }  // namespace alula::stack::slam

@@ -89,7 +89,7 @@ void RefreshLandmark(Map& map, int id) {
   const Landmark::Sight& first = landmark.sights.front();
   const Keyframe& keyframe = map.keyframe(first.keyframe);
   landmark.reference_distance = (keyframe.X_MB * map.eyes.X_BL.p - landmark.p_M).norm();
-  landmark.reference_level = feature(first).level;
+  landmark.reference_octave = feature(first).octave;
   constexpr std::size_t kLooks = 8;  // newest sights that are compared
   const std::size_t begin = landmark.sights.size() > kLooks ? landmark.sights.size() - kLooks : 0;
   int best = std::numeric_limits<int>::max();

@@ -1,19 +1,18 @@
 #include "stack/slam/map_bundle.h"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
 namespace alula::stack::slam {
 
 Sight SightOf(const Keyframe& keyframe, int feature, int pose, const CameraIntrinsics& camera,
-              const AdjustConfig& config) {
+              const MapConfig& config) {
   const KeyframeFeature& f = keyframe.features[static_cast<std::size_t>(feature)];
-  return {pose, f.left, f.right, config.pixel_sigma * std::pow(kLevelScale, f.level) / camera.fx};
+  return {pose, f.left, f.right, config.adjust.pixel_sigma * features::OctaveScale(config.orb, f.octave) / camera.fx};
 }
 
 MapBundle MakeBundle(const Map& map, const std::vector<int>& moving, const std::vector<int>& holding,
-                     const CameraIntrinsics& camera, const AdjustConfig& config) {
+                     const CameraIntrinsics& camera, const MapConfig& config) {
   MapBundle made;
   made.bundle.eyes = map.eyes;
   std::merge(moving.begin(), moving.end(), holding.begin(), holding.end(), std::back_inserter(made.keyframes));
@@ -25,7 +24,7 @@ MapBundle MakeBundle(const Map& map, const std::vector<int>& moving, const std::
     const bool moves = std::binary_search(moving.begin(), moving.end(), keyframe.id);
     made.bundle.poses.push_back({keyframe.X_MB, !moves});
     if (!moves) continue;
-    made.bundle.verticals.push_back({static_cast<int>(i), keyframe.up_B, config.vertical});
+    made.bundle.verticals.push_back({static_cast<int>(i), keyframe.up_B, config.adjust.vertical});
     for (const int l : keyframe.landmarks) {
       if (l >= 0) landmarks.insert(l);
     }

@@ -1,11 +1,12 @@
 #pragma once
 
 #include "base/describe.h"
+#include "stack/features/orb_config.h"
 
 namespace alula::stack::slam {
 
 /// Finding landmarks of the map again in a new keyframe.
-struct MatchConfig {
+struct SearchConfig {
   double radius = 12.0;        // px around where a landmark is expected
   double near_radius = 4.0;    // px, once the pose is corrected
   int max_distance = 60;       // bits of 256 by which descriptors may differ
@@ -36,12 +37,14 @@ struct AdjustConfig {
 struct MapConfig {
   bool enabled = true;
   double latency = 0.2;   // s until what a keyframe taught is known
-  int features = 400;     // keypoints of a keyframe
-  MatchConfig match;
+  features::OrbConfig orb{.keypoints = 400};  // of a keyframe
+  SearchConfig search;
   AdjustConfig adjust;
   double redundant = 0.9;  // share of its landmarks that three others see: such a keyframe goes
 };
 
+void Describe(base::Description& d, SearchConfig& c);
+void Describe(base::Description& d, AdjustConfig& c);
 void Describe(base::Description& d, MapConfig& c);
 
 }  // namespace alula::stack::slam

@@ -31,6 +31,12 @@ Vec3 OpticalAxis(const Map& map, const Keyframe& keyframe) {
   return keyframe.X_MB.q * (map.eyes.X_BL.q * Vec3::UnitZ());
 }
 
+std::vector<base::Vec2> PixelsOf(const KeyframeFeatures& features) {
+  std::vector<base::Vec2> pixels;
+  for (const KeyframeFeature& f : features) pixels.push_back(f.pixel);
+  return pixels;
+}
+
 /// One motion after the other.
 RelativePose Compose(const RelativePose& a, const RelativePose& b) {
   RelativePose both;
@@ -114,12 +120,12 @@ std::vector<int> Mapper::LocalLandmarks(const Keyframe& keyframe) const {
 int Mapper::Recognise(Keyframe& keyframe, KeyframeReport& report) {
   const std::vector<int> landmarks = LocalLandmarks(keyframe);
   report.looked_for = static_cast<int>(landmarks.size());
-  const FeatureGrid grid(keyframe.features, camera_);
+  const features::KeypointGrid grid(PixelsOf(keyframe.features), camera_.width, camera_.height);
   std::vector<LandmarkMatch> matches;
   Transform X_MB = keyframe.X_MB;
-  for (const double radius : {config_.match.radius, config_.match.near_radius}) {
-    matches = FindLandmarks(map_, keyframe, X_MB, landmarks, grid, camera_, radius, config_.match);
-    if (static_cast<int>(matches.size()) < config_.match.least) return 0;
+  for (const double radius : {config_.search.radius, config_.search.near_radius}) {
+    matches = FindLandmarks(map_, keyframe, X_MB, landmarks, grid, camera_, radius, config_);
+    if (static_cast<int>(matches.size()) < config_.search.least) return 0;
     const std::optional<Transform> refined = Refine(keyframe, X_MB, matches);
     if (!refined) return 0;
     X_MB = *refined;
@@ -148,7 +154,7 @@ std::optional<Transform> Mapper::Refine(const Keyframe& keyframe, const Transfor
   }
   for (const LandmarkMatch& m : matches) {
     BundlePoint point{map_.landmark(m.landmark).p_M, {}, true};
-    point.sights.push_back(SightOf(keyframe, m.feature, 0, camera_, config_.adjust));
+    point.sights.push_back(SightOf(keyframe, m.feature, 0, camera_, config_));
     bundle.points.push_back(std::move(point));
   }
   const BundleOptions options{8, config_.adjust.huber, 1e-4};
@@ -165,7 +171,7 @@ std::optional<Transform> Mapper::Refine(const Keyframe& keyframe, const Transfor
     }
     matches = std::move(kept);
     bundle.points = std::move(points);
-    if (static_cast<int>(matches.size()) < config_.match.least) return std::nullopt;
+    if (static_cast<int>(matches.size()) < config_.search.least) return std::nullopt;
   }
   return bundle.poses[0].X_MB;
 }
@@ -210,7 +216,7 @@ void Mapper::AdjustAround(int id) {
     moving.erase(moving.begin());
   }
   if (moving.empty()) return;
-  MapBundle part = MakeBundle(map_, {moving.begin(), moving.end()}, {holding.begin(), holding.end()}, camera_, config);
+  MapBundle part = MakeBundle(map_, {moving.begin(), moving.end()}, {holding.begin(), holding.end()}, camera_, config_);
   Adjust(part.bundle, {config.iterations, config.huber, 1e-3});
   TakeOver(part, map_, config.gate);
 }
@@ -286,7 +292,7 @@ void Mapper::AdjustWhole(int iterations, double tolerance) {
   if (all.size() < 2) return;
   const std::vector<int> first{all.front()};
   all.erase(all.begin());
-  MapBundle whole = MakeBundle(map_, all, first, camera_, config_.adjust);
+  MapBundle whole = MakeBundle(map_, all, first, camera_, config_);
   Adjust(whole.bundle, {iterations, config_.adjust.huber, tolerance});
   TakeOver(whole, map_, config_.adjust.gate);
 }

@@ -4,23 +4,18 @@
 #include <vector>
 
 #include "base/frames.h"
-#include "base/time.h"
+#include "base/trajectory_file.h"
 #include "stack/estimation/odometry.h"
 #include "stack/interface/calibration.h"
 #include "stack/slam/slam_config.h"
 
 namespace alula::stack::slam {
 
-/// Where the body is at an instant, in the map frame.
-struct StampedPose {
-  base::Time stamp;
-  base::Transform X_MB;
-};
-
 /// What came of one frame.
 struct SlamResult {
   estimation::FrameResult odometry;
   base::Transform X_MO;  // from the odometry frame to the map, as known now
+  double map_ms = 0.0;   // processor time of the map's part, for reports alone
 };
 
 /// Odometry and map together, in one thread: for recorded data, and as the reference of the stack that runs both as
@@ -34,8 +29,8 @@ class Slam {
 
   SlamResult Process(const estimation::FrameInput& frame);
 
-  /// The pose of every frame that had one, after all optimisation. To be asked for once, at the end.
-  std::vector<StampedPose> FinalTrajectory();
+  /// X_MB of every frame that had one, after all optimisation. To be asked for once, at the end.
+  std::vector<base::StampedPose> FinalTrajectory();
 
  private:
   class Impl;
