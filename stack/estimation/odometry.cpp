@@ -178,7 +178,7 @@ class StereoInertialOdometry::Impl {
     if (keyframe) X_OC_reference_ = window_.Newest().X_OI * window_.X_IC();
     result.keyframe = keyframe;
     if (keyframe) {
-      if (const std::optional<ImuState> last = window_.KeyframeBefore()) result.X_OB_before = last->X_OI * imu_.X_BI.Inverse();
+      for (const ImuState& s : window_.KeyframesBefore()) result.window.push_back({s.stamp, s.X_OI * imu_.X_BI.Inverse()});
     }
     View(tracks, result);
 
@@ -280,7 +280,7 @@ class StereoInertialOdometry::Impl {
     failed_solves_ = 0;
     ++reset_counter_;
     result.keyframe = true;
-    result.X_OB_before.reset();
+    result.window.clear();
     result.reset_counter = reset_counter_;
     result.note = "reset: " + why;
   }

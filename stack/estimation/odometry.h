@@ -42,6 +42,12 @@ struct NavState {
   base::Vec3 accel_bias = base::Vec3::Zero();  // m/s², IMU frame
 };
 
+/// A keyframe of the window as it is known now.
+struct KeyframePose {
+  base::Time stamp;
+  base::Transform X_OB;
+};
+
 struct FrameResult {
   std::uint32_t seq = 0;
   bool initialised = false;
@@ -50,8 +56,9 @@ struct FrameResult {
   base::Mat3 velocity_covariance = base::Mat3::Zero();
   std::uint32_t reset_counter = 0;  // grows when the state was re-initialised
   bool keyframe = false;            // the window keeps this frame
-  /// With a keyframe: where the keyframe before it is now known to be; none after a (re)start.
-  std::optional<base::Transform> X_OB_before;
+  /// With a keyframe: where those before it that the window still holds are now known to be, oldest first; empty after
+  /// a (re)start.
+  std::vector<KeyframePose> window;
   std::vector<FeatureView> features;
   int tracked = 0;   // corners followed into this image
   int inliers = 0;   // of them, those that agree with the motion

@@ -123,11 +123,12 @@ ImuState SlidingWindow::ReadState(const Frame& frame) const {
 
 ImuState SlidingWindow::Newest() const { return ReadState(*frames_.back()); }
 
-std::optional<ImuState> SlidingWindow::KeyframeBefore() const {
-  for (std::size_t i = frames_.size() - 1; i-- > 0;) {
-    if (frames_[i]->keyframe) return ReadState(*frames_[i]);
+std::vector<ImuState> SlidingWindow::KeyframesBefore() const {
+  std::vector<ImuState> states;
+  for (std::size_t i = 0; i + 1 < frames_.size(); ++i) {
+    if (frames_[i]->keyframe) states.push_back(ReadState(*frames_[i]));
   }
-  return std::nullopt;
+  return states;
 }
 
 /// During the time offset the IMU moves on with the speed and rate it has at the stamp.

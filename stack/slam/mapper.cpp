@@ -62,18 +62,7 @@ KeyframeReport Mapper::Add(KeyframeInput input) {
   keyframe.up_B = input.X_OB.q.conjugate() * Vec3::UnitZ();
   keyframe.features = std::move(input.features);
   keyframe.landmarks.assign(keyframe.features.size(), -1);
-  if (newest_ >= 0 && input.X_OB_previous) {
-    const Keyframe& before = map_.keyframe(newest_);
-    RelativePose motion;
-    motion.X_FT = input.X_OB_previous->Inverse() * input.X_OB;
-    const double way = motion.X_FT.p.norm(), time = (input.stamp - before.stamp).Seconds();
-    const AdjustConfig& a = config_.adjust;
-    motion.sigma << Vec3::Constant(a.motion_position + a.motion_drift * way),
-        Vec3::Constant(a.motion_angle + a.motion_angle_drift * time);
-    keyframe.from_previous = motion;
-    keyframe.previous = newest_;
-    keyframe.X_MB = before.X_MB * motion.X_FT;
-  }
+  TakeMotions(input, keyframe);
   map_.keyframes.push_back(std::move(owned));
   dropped_.emplace_back();
   if (newest_ >= 0) report.matched = Recognise(keyframe, report);
@@ -89,6 +78,30 @@ KeyframeReport Mapper::Add(KeyframeInput input) {
   DropPoorLandmarks(keyframe.id);
   DropRedundantKeyframes(keyframe.id);
   return report;
+}
+
+/// The odometry still improves what it has in its window: motions between its keyframes are taken anew.
+void Mapper::TakeMotions(const KeyframeInput& input, Keyframe& keyframe) {
+  const AdjustConfig& a = config_.adjust;
+  Keyframe* to = &keyframe;
+  Transform X_OT = input.X_OB;
+  int from_id = newest_;
+  for (auto it = input.window.rbegin(); it != input.window.rend() && from_id >= 0; ++it) {
+    const Keyframe& from = map_.keyframe(from_id);
+    if (from.stamp != it->stamp) return;  // one of them was dropped
+    RelativePose motion;
+    motion.X_FT = it->X_OB.Inverse() * X_OT;
+    const double way = motion.X_FT.p.norm(), time = (to->stamp - from.stamp).Seconds();
+    motion.sigma << Vec3::Constant(a.motion_position + a.motion_drift * way),
+        Vec3::Constant(a.motion_angle + a.motion_angle_drift * time);
+    to->from_previous = motion;
+    to->previous = from_id;
+    to->up_B = X_OT.q.conjugate() * Vec3::UnitZ();
+    if (to == &keyframe) keyframe.X_MB = from.X_MB * motion.X_FT;
+    X_OT = it->X_OB;
+    to = &map_.keyframe(from_id);
+    from_id = to->previous;
+  }
 }
 
 std::vector<int> Mapper::LocalLandmarks(const Keyframe& keyframe) const {

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "stack/estimation/odometry.h"
 #include "stack/interface/camera_model.h"
 #include "stack/slam/landmark_search.h"
 #include "stack/slam/map.h"
@@ -19,8 +20,9 @@ struct KeyframeInput {
   base::Transform X_OB;
   Eyes eyes;
   KeyframeFeatures features;
-  /// The keyframe before it, where the odometry has it now: the motion since then.
-  std::optional<base::Transform> X_OB_previous;
+  /// Keyframes before it as the odometry has them now, oldest first, the one before it last: the motion since then. Empty
+  /// where the odometry has lost its way in between.
+  std::vector<estimation::KeyframePose> window;
 };
 
 /// What a keyframe taught.
@@ -57,6 +59,7 @@ class Mapper {
     base::Transform X_HB;  // of the dropped one in its heir
   };
 
+  void TakeMotions(const KeyframeInput& input, Keyframe& keyframe);
   std::vector<int> LocalLandmarks(const Keyframe& keyframe) const;
   int Recognise(Keyframe& keyframe, KeyframeReport& report);
   /// The pose that fits the matches, the odometry's motion and its vertical; matches that disagree go. None when too

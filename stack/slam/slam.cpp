@@ -73,8 +73,14 @@ class Slam::Impl {
     // The shutter opened a little before or after the stamp: the keyframe is the pose of that instant.
     const double t = rig.time_offset;
     input.X_OB = {(state.X_OB.q * base::Exp(state.w_B * t)).normalized(), state.X_OB.p + state.v_OB * t};
-    if (last_keyframe_ >= 0 && odometry.X_OB_before) input.X_OB_previous = *odometry.X_OB_before * X_stamp_shutter_;
-    X_stamp_shutter_ = state.X_OB.Inverse() * input.X_OB;
+    input.window = odometry.window;
+    shutters_.push_back({state.stamp, state.X_OB.Inverse() * input.X_OB});
+    while (shutters_.size() > kShutters) shutters_.pop_front();
+    for (estimation::KeyframePose& before : input.window) {
+      for (const estimation::KeyframePose& s : shutters_) {
+        if (s.stamp == before.stamp) before.X_OB = before.X_OB * s.X_OB;
+      }
+    }
     const base::Quat eye = base::Exp({rig.eye_rotation.x(), rig.eye_rotation.y(), 0.0});
     input.eyes.X_BL = {X_BL_.q * base::Exp(rig.camera_rotation), X_BL_.p};
     input.eyes.X_LR = Transform{rig_.X_LR.q * eye, rig_.X_LR.p};
@@ -94,7 +100,8 @@ class Slam::Impl {
   Transform X_MO_;
   int last_keyframe_ = -1;
   Transform X_OB_keyframe_;
-  Transform X_stamp_shutter_;  // of the last keyframe: body at the exposure in the body at the stamp
+  static constexpr std::size_t kShutters = 32;
+  std::deque<estimation::KeyframePose> shutters_;  // of newest keyframes: body at the exposure in the body at the stamp
   std::vector<Recorded> poses_;
 };
 

@@ -71,8 +71,8 @@ class SlidingWindow {
   void Slide();
 
   ImuState Newest() const;
-  /// The newest keyframe but the newest frame; none in a young window.
-  std::optional<ImuState> KeyframeBefore() const;
+  /// Keyframes but the newest frame, oldest first.
+  std::vector<ImuState> KeyframesBefore() const;
   /// Position of a track's landmark in O, m.
   std::optional<base::Vec3> Landmark(std::uint64_t track) const;
   bool SeenInNewest(std::uint64_t track) const;
