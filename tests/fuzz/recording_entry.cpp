@@ -45,6 +45,10 @@ void ReadTumText(const std::string& text) {
     }
   });
   Try([&] {
+    std::istringstream rows(text);
+    Expect(std::abs(dataset::ReadGravityDirection(rows, "gravity").norm() - 1) < 1e-9, "a direction that is none");
+  });
+  Try([&] {
     const dataset::RgbdCalibration camera = dataset::ReadRgbdYaml(text, "camera.yaml");
     Expect(camera.colour.fx > 0 && camera.depth.width > 0 && camera.values_per_metre > 0, "a camera that is none");
   });

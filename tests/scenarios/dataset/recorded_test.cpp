@@ -101,6 +101,7 @@ TEST(RecordedTum, ReadsARoom) {
   ASSERT_EQ(recording.images[0].size(), 280u);
   ASSERT_EQ(recording.images[1].size(), 280u);
   EXPECT_EQ(recording.truth.size(), 280u);
+  // Somebody holds the camera 1 to 2 m above the floor and looks at a desk: 25 m in 33 s, hardly any of it upward.
   EXPECT_LT(PathLength(recording.truth), 60);
   for (std::size_t k = 0; k < 280; ++k) {
     EXPECT_EQ(recording.depth->of_picture[k], k);

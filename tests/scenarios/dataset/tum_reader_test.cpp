@@ -140,6 +140,33 @@ TEST(TumReader, TheDepthCameraMayBeAnother) {
   EXPECT_FALSE(Registered(cameras[0], cameras[1]));
 }
 
+TEST(TumReader, AnotherCalibrationMayBeGiven) {
+  const TemporaryFolder folder("tum_given"), elsewhere("tum_yaml");
+  WriteSequence(folder.path());
+  const fs::path yaml = elsewhere.path() / "mine.yaml";
+  std::ofstream(yaml) << "width: 4\nheight: 3\nfx: 9\nfy: 9\ncx: 2\ncy: 1.5\n";
+  const Recording recording = OpenRecording(folder.path(), yaml);
+  EXPECT_EQ(recording.calibration.cameras[0].intrinsics.fx, 9);
+  EXPECT_EQ(recording.depth->values_per_metre, 5000);                 // TUM's, where nothing is said
+  EXPECT_NEAR(recording.calibration.cameras[0].rate.Hz(), 30, 1e-3);  // of the stamps
+  fs::create_directories(elsewhere.path() / "mav0");
+  EXPECT_NE(Complaint([&] { OpenRecording(elsewhere.path(), yaml); }).find("EuRoC ASL has a calibration of its own"),
+            std::string::npos);
+}
+
+TEST(TumReader, TheWorldIsLevelledWhereGravityIsKnown) {
+  const TemporaryFolder folder("tum_gravity");
+  WriteSequence(folder.path());
+  const Recording as_it_is = OpenRecording(folder.path());
+  std::ofstream(folder.path() / "gravity-direction.txt") << "0.0\n0.8\n0.6\n";
+  const Recording level = OpenRecording(folder.path());
+  const base::Quat turn = level.truth[0].X_WB.q * as_it_is.truth[0].X_WB.q.conjugate();
+  EXPECT_LT((turn * Vec3(0, 0.8, 0.6) - Vec3(0, 0, -1)).norm(), 1e-14);
+  for (std::size_t k = 0; k < 2; ++k) {
+    EXPECT_LT((level.truth[k].X_WB.p - turn * as_it_is.truth[k].X_WB.p).norm(), 1e-14);
+  }
+}
+
 TEST(TumReader, SurvivesWhatIsMissing) {
   const TemporaryFolder folder("tum_gaps");
   WriteSequence(folder.path());
@@ -176,6 +203,9 @@ TEST(TumReader, BrokenFilesAreNamedWithTheirLine) {
        "distortion: must be [k1, k2, p1, p2]"},
       {"camera.yaml", "width: 4\nheight: 3\nfx: 5\nfy: 6\ncx: 2\ncy: 1\nfocal: 3\n", "focal"},
       {"rgb.yaml", "sensor_type: camera\n", "rgb.yaml"},
+      {"gravity-direction.txt", "0 0 -2\n", "gravity-direction.txt: must hold"},
+      {"gravity-direction.txt", "0 0\n0 -1\n", "gravity-direction.txt:2: gravity: has more than three"},
+      {"gravity-direction.txt", "0 y -1\n", "gravity-direction.txt:1: gravity: `y`"},
       {"groundtruth.txt", "1 0 0 0 0 0 0 2\n", "groundtruth.txt:1: quaternion"},
       {"groundtruth.txt", "2 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", "groundtruth.txt:2: timestamp"},
   };
