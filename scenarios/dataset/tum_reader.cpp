@@ -33,12 +33,6 @@ std::vector<ImageFile> ListImages(const fs::path& folder, const char* list, int&
   return images;
 }
 
-std::vector<base::Time> Times(const std::vector<ImageFile>& images) {
-  std::vector<base::Time> times;
-  for (const ImageFile& image : images) times.push_back(image.captured);
-  return times;
-}
-
 /// Our own exports: sensor.yaml of both, with the optical frame of rgb/ as body.
 Cameras ReadOwnYaml(const fs::path& folder) {
   const auto read = [&](const char* name) {
@@ -120,9 +114,9 @@ Recording ReadTum(const fs::path& folder, const std::optional<fs::path>& camera_
   std::error_code error;
   recording.images.push_back(ListImages(folder, "rgb.txt", recording.missing_images));
   const bool own = !camera_yaml && fs::exists(folder / "rgb.yaml", error);
-  Cameras cameras =
-      own ? ReadOwnYaml(folder)
-          : ReadOneYaml(camera_yaml.value_or(folder / "camera.yaml"), internal::MedianRate(Times(recording.images[0])));
+  Cameras cameras = own ? ReadOwnYaml(folder)
+                        : ReadOneYaml(camera_yaml.value_or(folder / "camera.yaml"),
+                                      internal::MedianRate(StampsOf(recording.images[0])));
   const base::Transform X_BC{base::ForwardCameraRotation(), base::Vec3::Zero()};
   cameras.picture.X_BC = X_BC * cameras.picture.X_BC;
   cameras.depth.X_BC = X_BC * cameras.depth.X_BC;

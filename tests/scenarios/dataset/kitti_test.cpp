@@ -92,6 +92,10 @@ TEST(Kitti, ReadsItsFourCamerasAndPoses) {
     EXPECT_EQ(image.exposure_start, base::Time{250'000'000});
   }
   ASSERT_EQ(recording.truth.size(), 4u);
+  const std::vector<base::StampedPose> poses = TrueTrajectory(recording);
+  ASSERT_EQ(poses.size(), 4u);
+  EXPECT_EQ(poses[3].time, StampsOf(recording.images[0])[3]);
+  EXPECT_EQ(poses[3].X_FS.p, recording.truth[3].X_WB.p);
   for (int k = 0; k < 4; ++k) {
     const BodyTruth& truth = recording.truth[static_cast<std::size_t>(k)];
     EXPECT_EQ(truth.time, recording.images[0][static_cast<std::size_t>(k)].captured);
