@@ -12,8 +12,8 @@ namespace alula::scenarios::dataset {
 bool Registered(const stack::CameraCalibration& a, const stack::CameraCalibration& b);
 
 /// Draws depth images of one camera as another one beside it would see them: each pixel becomes the point
-/// p_C = X_CD (z · ray), which lands at its pixel of camera C with its depth p_C.z there, as a square as large as the
-/// pixel is in C; of two points in one pixel the nearer one counts. What C sees and D does not stays 0.
+/// p_C = X_CD (z · ray), which lands at its pixel of camera C with its depth p_C.z there, as a square a tenth
+/// larger than the pixel is in C; of two points in one pixel the nearer one counts. What C sees and D does not stays 0.
 class DepthRegistration {
  public:
   DepthRegistration(const stack::CameraCalibration& depth, const stack::CameraCalibration& into);

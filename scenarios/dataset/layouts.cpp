@@ -30,7 +30,8 @@ const Reader kReaders[] = {
        return Has(folder, "calib.txt") && (Has(folder, "image_0") || Has(folder, "image_2"));
      },
      ReadKitti},
-    {Layout::kTum, "TUM RGB-D", [](const fs::path& folder) { return Has(folder, "rgb.txt"); }, ReadTum},
+    {Layout::kTum, "TUM RGB-D", [](const fs::path& folder) { return Has(folder, "rgb.txt"); },
+     [](const fs::path& folder) { return ReadTum(folder); }},
 };
 
 }  // namespace
@@ -49,11 +50,17 @@ std::string_view NameOf(Layout layout) {
   return {};
 }
 
-Recording OpenRecording(const fs::path& folder) {
+Recording OpenRecording(const fs::path& folder, const std::optional<fs::path>& camera_yaml) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) throw base::InputError({folder.string()}, "", "is no folder");
+  const std::optional<Layout> layout = LayoutOf(folder);
+  if (camera_yaml && layout == Layout::kTum) return ReadTum(folder, camera_yaml);
+  if (camera_yaml && layout) {
+    throw base::InputError({camera_yaml->string()}, "",
+                           "is not wanted: " + std::string(NameOf(*layout)) + " has a calibration of its own");
+  }
   for (const Reader& reader : kReaders) {
-    if (reader.fits(folder)) return reader.read(folder);
+    if (reader.layout == layout) return reader.read(folder);
   }
   throw base::InputError({folder.string()}, "",
                          "holds no recording; wanted is mav0/ (EuRoC ASL), calib.txt beside image_0/ (KITTI odometry) "

@@ -7,6 +7,7 @@
 
 #include "base/frames.h"
 #include "base/time.h"
+#include "base/trajectory_file.h"
 #include "stack/interface/calibration.h"
 #include "stack/interface/measurement.h"
 
@@ -57,5 +58,11 @@ struct Recording {
   std::vector<BodyTruth> truth;  // ascending in time; empty where the recording has none
   int missing_images = 0;        // stamps without a file
 };
+
+/// When the images were taken, in their order.
+std::vector<base::Time> StampsOf(const std::vector<ImageFile>& images);
+
+/// The poses X_WB of the truth, as a judge of an estimate wants them.
+std::vector<base::StampedPose> TrueTrajectory(const Recording& recording);
 
 }  // namespace alula::scenarios::dataset

@@ -1,9 +1,11 @@
 #include "scenarios/dataset/tum_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "base/config.h"
+#include "base/error.h"
 #include "base/text_rows.h"
 #include "scenarios/dataset/internal/files.h"
 #include "scenarios/dataset/internal/matrix_text.h"
@@ -76,6 +78,21 @@ std::vector<StampedName> ReadTumList(std::istream& text, const std::string& file
     names.push_back({time, name});
   });
   return names;
+}
+
+base::Vec3 ReadGravityDirection(std::istream& text, const std::string& file_name) {
+  constexpr double kUnitLength = 0.01;  // as of quaternions
+  std::vector<double> numbers;
+  base::ForEachRow(text, file_name, [&](const base::TextRow& row) {
+    for (std::size_t i = 0; i < row.size(); ++i) numbers.push_back(row.Number(i, "gravity"));
+    if (numbers.size() > 3) row.Fail("gravity", "has more than three numbers");
+  });
+  const base::Vec3 direction =
+      numbers.size() == 3 ? base::Vec3(numbers[0], numbers[1], numbers[2]) : base::Vec3::Zero();
+  if (!(std::abs(direction.norm() - 1.0) < kUnitLength)) {
+    throw base::InputError({file_name}, "", "must hold the three numbers of a unit vector along gravity");
+  }
+  return direction.normalized();
 }
 
 RgbdCalibration ReadRgbdYaml(std::string_view text, const std::string& file_name) {

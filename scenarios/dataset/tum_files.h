@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/frames.h"
 #include "base/time.h"
 #include "stack/interface/calibration.h"
 
@@ -20,6 +21,10 @@ struct StampedName {
 /// Rows `seconds name`, ascending in time. Throws base::InputError with file and line, also for names that lead out of
 /// the dataset's folder.
 std::vector<StampedName> ReadTumList(std::istream& text, const std::string& file_name);
+
+/// gravity-direction.txt: a unit vector along gravity in the world of groundtruth.txt, three numbers in one row or
+/// more. Throws base::InputError with file and line.
+base::Vec3 ReadGravityDirection(std::istream& text, const std::string& file_name);
 
 /// Both cameras of an RGB-D sensor.
 struct RgbdCalibration {

@@ -33,12 +33,6 @@ std::vector<ImageFile> ListImages(const fs::path& folder, const char* list, int&
   return images;
 }
 
-std::vector<base::Time> Times(const std::vector<ImageFile>& images) {
-  std::vector<base::Time> times;
-  for (const ImageFile& image : images) times.push_back(image.captured);
-  return times;
-}
-
 /// Our own exports: sensor.yaml of both, with the optical frame of rgb/ as body.
 Cameras ReadOwnYaml(const fs::path& folder) {
   const auto read = [&](const char* name) {
@@ -48,8 +42,7 @@ Cameras ReadOwnYaml(const fs::path& folder) {
   return {.picture = read("rgb.yaml"), .depth = read("depth.yaml")};
 }
 
-Cameras ReadOneYaml(const fs::path& folder, base::Rate rate_of_stamps) {
-  const fs::path file = folder / "camera.yaml";
+Cameras ReadOneYaml(const fs::path& file, base::Rate rate_of_stamps) {
   const std::string text = internal::ReadWhole(
       file,
       "TUM's layout has no calibration of its own: write there width, height, fx, fy, cx, cy and depth_scale (5000)");
@@ -65,14 +58,25 @@ Cameras ReadOneYaml(const fs::path& folder, base::Rate rate_of_stamps) {
   return cameras;
 }
 
-std::vector<BodyTruth> ReadTruth(const fs::path& file, const base::Transform& X_BC) {
+/// The turn that makes the world of the truth level; none where nothing says how it hangs.
+base::Quat Levelling(const fs::path& folder) {
   std::error_code error;
+  const fs::path file = folder / "gravity-direction.txt";
+  if (!fs::exists(file, error)) return base::Quat::Identity();
+  std::ifstream stream = base::OpenText(file);
+  return base::Quat::FromTwoVectors(ReadGravityDirection(stream, file.string()), -base::Vec3::UnitZ());
+}
+
+std::vector<BodyTruth> ReadTruth(const fs::path& folder, const base::Transform& X_BC) {
+  std::error_code error;
+  const fs::path file = folder / "groundtruth.txt";
   if (!fs::exists(file, error)) return {};
+  const base::Transform X_WF{Levelling(folder), base::Vec3::Zero()};
   std::vector<BodyTruth> truth;
   for (const base::StampedPose& pose : base::ReadTrajectory(file, 0)) {
     truth.emplace_back();
     truth.back().time = pose.time;
-    truth.back().X_WB = pose.X_FS * X_BC.Inverse();
+    truth.back().X_WB = X_WF * pose.X_FS * X_BC.Inverse();
   }
   return truth;
 }
@@ -104,13 +108,15 @@ std::vector<std::optional<std::size_t>> PairByStamp(const std::vector<ImageFile>
   return of_picture;
 }
 
-Recording ReadTum(const fs::path& folder) {
+Recording ReadTum(const fs::path& folder, const std::optional<fs::path>& camera_yaml) {
   Recording recording;
   recording.layout = Layout::kTum;
   std::error_code error;
   recording.images.push_back(ListImages(folder, "rgb.txt", recording.missing_images));
-  const bool own = fs::exists(folder / "rgb.yaml", error);
-  Cameras cameras = own ? ReadOwnYaml(folder) : ReadOneYaml(folder, internal::MedianRate(Times(recording.images[0])));
+  const bool own = !camera_yaml && fs::exists(folder / "rgb.yaml", error);
+  Cameras cameras = own ? ReadOwnYaml(folder)
+                        : ReadOneYaml(camera_yaml.value_or(folder / "camera.yaml"),
+                                      internal::MedianRate(StampsOf(recording.images[0])));
   const base::Transform X_BC{base::ForwardCameraRotation(), base::Vec3::Zero()};
   cameras.picture.X_BC = X_BC * cameras.picture.X_BC;
   cameras.depth.X_BC = X_BC * cameras.depth.X_BC;
@@ -127,7 +133,7 @@ Recording ReadTum(const fs::path& folder) {
                        .values_per_metre = cameras.values_per_metre,
                        .of_picture = PairByStamp(recording.images[0], recording.images[1], kLargestSkew)};
   }
-  recording.truth = ReadTruth(folder / "groundtruth.txt", X_BC);
+  recording.truth = ReadTruth(folder, X_BC);
   return recording;
 }
 

@@ -22,6 +22,28 @@ std::vector<base::Time> Covered(const std::vector<base::Time>& images, const std
   return {first, end};
 }
 
+std::vector<base::Time> Within(const std::vector<base::StampedPose>& poses, base::Time first, base::Time last) {
+  std::vector<base::Time> times;
+  for (const base::StampedPose& pose : poses) {
+    if (pose.time >= first && pose.time <= last) times.push_back(pose.time);
+  }
+  return times;
+}
+
+/// Of the poses among the images; the latter are not empty.
+void AddGaps(const std::vector<base::Time>& poses, const std::vector<base::Time>& images, Completeness& result) {
+  constexpr base::Duration kNone{};
+  if (poses.empty()) {
+    result.until_first = images.back() - images.front();
+    return;
+  }
+  result.until_first = std::max(kNone, poses.front() - images.front());
+  result.longest_gap = std::max(kNone, images.back() - poses.back());
+  for (std::size_t i = 1; i < poses.size(); ++i) {
+    result.longest_gap = std::max(result.longest_gap, poses[i] - poses[i - 1]);
+  }
+}
+
 }  // namespace
 
 Completeness CompletenessOf(const std::vector<base::Time>& images, const std::vector<base::StampedPose>& estimate,
@@ -38,19 +60,7 @@ Completeness CompletenessOf(const std::vector<base::Time>& images, const std::ve
     ++result.with_pose;
     ++pose;  // a pose serves one image
   }
-  base::Time last = counting.front();
-  bool begun = false;
-  const auto see = [&](base::Time time) {
-    (begun ? result.longest_gap : result.until_first) =
-        begun ? std::max(result.longest_gap, time - last) : time - counting.front();
-    last = time;
-  };
-  for (const base::StampedPose& p : estimate) {
-    if (p.time + reach < counting.front() || p.time > counting.back() + reach) continue;
-    see(std::max(p.time, counting.front()));
-    begun = true;
-  }
-  see(std::max(counting.back(), last));
+  AddGaps(Within(estimate, counting.front() + -reach, counting.back() + reach), counting, result);
   return result;
 }
 

@@ -50,6 +50,7 @@ const std::vector<Library>& Libraries() {
   static const std::vector<Library> libraries = {
       {"yaml-cpp", {"yaml-cpp/"}, true},
       {"png", {"png.h"}, true},
+      {"jpeg", {"jpeglib.h"}, true},
       {"bullet", {"bt", "Bullet", "LinearMath/", "bullet/"}, true},
       {"gl", {"GL/", "EGL/", "KHR/", "GLES"}, true},
       {"ceres", {"ceres/"}, true},

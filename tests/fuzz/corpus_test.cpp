@@ -10,7 +10,9 @@
 #include "base/random.h"
 #include "tests/fuzz/dataset_entry.h"
 #include "tests/fuzz/faults_entry.h"
+#include "tests/fuzz/jpeg_entry.h"
 #include "tests/fuzz/mesh_entry.h"
+#include "tests/fuzz/recording_entry.h"
 #include "tests/fuzz/texture_entry.h"
 #include "tests/fuzz/yaml_entry.h"
 
@@ -33,6 +35,9 @@ const Target kTargets[] = {
     {"texture", &alula::fuzz::ReadTexture, &alula::fuzz::MendChecksums, "\x01\x02\x03\x04\x08\x10\x7f\x80\xff IDAT"},
     {"dataset", &alula::fuzz::ReadDatasetFile, &alula::fuzz::MendChecksums,
      "[]{},:#\"%- \n\t019.eEnai\x01\x02\x08\x10\xff"},
+    {"recording", &alula::fuzz::ReadRecordingFile, nullptr, "[]{},:#/-. \n\t0123456789eEPTx"},
+    {"jpeg", &alula::fuzz::ReadJpeg, nullptr,
+     "\xff\xd8\xc0\xc2\xc4\xda\xdb\xdd\xd9\xd0\x01\x02\x03\x11\x22\x3f\x10\x7f\x80"},
 };
 
 class FuzzCorpus : public ::testing::TestWithParam<Target> {

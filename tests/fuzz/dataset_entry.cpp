@@ -4,7 +4,6 @@
 #include <string>
 #include <string_view>
 
-#include "base/error.h"
 #include "base/text_rows.h"
 #include "base/trajectory_file.h"
 #include "scenarios/dataset/png.h"
@@ -12,18 +11,6 @@
 #include "tests/fuzz/expect.h"
 
 namespace alula::fuzz {
-namespace {
-
-template <typename Read>
-void Try(const Read& read) {
-  try {
-    read();
-  } catch (const base::InputError& error) {
-    ExpectOneLine(error.what());
-  }
-}
-
-}  // namespace
 
 void ReadDatasetFile(const std::uint8_t* data, std::size_t size) {
   namespace dataset = scenarios::dataset;

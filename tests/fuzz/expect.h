@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <string_view>
 
+#include "base/error.h"
+
 namespace alula::fuzz {
 
 /// Ends the program, in every build, so that libFuzzer keeps the input.
@@ -19,6 +21,16 @@ inline void ExpectOneLine(std::string_view message) {
   Expect(!message.empty() && message.size() < 1000, "a message is empty or too long");
   Expect(std::none_of(message.begin(), message.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }),
          "a message has characters that do not print");
+}
+
+/// Bad input may end in InputError of one line, and in nothing else.
+template <typename Read>
+void Try(const Read& read) {
+  try {
+    read();
+  } catch (const base::InputError& error) {
+    ExpectOneLine(error.what());
+  }
 }
 
 }  // namespace alula::fuzz

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "base/text_rows.h"
+#include "scenarios/dataset/image_file.h"
+#include "scenarios/dataset/layouts.h"
 #include "scenarios/dataset/png.h"
 #include "scenarios/dataset/sensor_yaml.h"
 #include "stack/interface/camera_model.h"
@@ -80,6 +82,14 @@ double MedianDisagreement(const std::vector<DepthFrame>& frames, const stack::Ca
   return errors[errors.size() / 2];
 }
 
+base::Transform TruePoseAt(const Recording& recording, base::Time time) {
+  for (const BodyTruth& truth : recording.truth) {
+    if (truth.time == time) return truth.X_WB;
+  }
+  ADD_FAILURE() << "no truth at " << time.Seconds();
+  return {};
+}
+
 TEST(TumExport, DepthAndPosesAgree) {
   const TemporaryFolder folder("tum_export");
   // Above the ground, looking half down, while it turns; with finer light than a real one's, which tells less.
@@ -100,6 +110,16 @@ TEST(TumExport, DepthAndPosesAgree) {
     ++rgb;
   });
   EXPECT_GE(frames.size(), 20u);
+
+  // The export opens as a recording, with a depth image for each picture.
+  const Recording recording = OpenRecording(folder.path() / "d");
+  EXPECT_EQ(recording.layout, Layout::kTum);
+  ASSERT_TRUE(recording.depth);
+  EXPECT_EQ(recording.images[0].size(), rgb);
+  for (std::size_t k = 0; k < rgb; ++k) EXPECT_EQ(recording.depth->of_picture[k], k);
+  EXPECT_EQ(LoadImage(recording.images[0][0], recording.calibration.cameras[0]).format, stack::PixelFormat::kRgb8);
+  const base::Transform X_WC = TruePoseAt(recording, frames[3].time) * recording.calibration.cameras[0].X_BC;
+  EXPECT_LT((X_WC.p - frames[3].X_WC.p).norm(), 1e-12);
 
   // Depth is known to z² σ_d / (f b): 8 mm at 4 m with 0.02 px; taking the nearest pixel adds half a pixel of slanted
   // ground, 4 mm.

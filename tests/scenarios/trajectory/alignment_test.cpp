@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <numbers>
 
+#include "scenarios/trajectory/four_dof_alignment.h"
 #include "tests/scenarios/trajectory/walks.h"
 
 namespace alula::scenarios::trajectory {
@@ -81,6 +82,14 @@ TEST(Align, NoiseOfKnownSizeIsMeasured) {
       EXPECT_NEAR(chi, k, 4 * std::sqrt(2 * k)) << "freedom " << static_cast<int>(freedom) << " seed " << seed;
     }
   }
+}
+
+TEST(Align, TheCriterionsRunningSumsSayTheSame) {
+  const std::vector<PosePair> pairs = Pairs({base::FromYaw(1.1), {500, -300, 20}}, 1, 0.3, 6);
+  FourDofAlignment sums;
+  for (const PosePair& pair : pairs) sums.Add(pair.estimate.p, pair.truth.p);
+  EXPECT_NEAR(sums.AlignedRmse(), AbsoluteErrorOf(pairs, Freedom::kYaw).position.rmse, 1e-9);
+  EXPECT_NEAR(sums.UnalignedRmse(), AbsoluteErrorOf(pairs, Freedom::kNone).position.rmse, 1e-9);
 }
 
 /// Horn 1987: the best turn as a quaternion is the eigenvector of the largest eigenvalue of a symmetric 4×4 matrix,
