@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stack/slam/internal/bundle_residuals.h"
 #include "stack/slam/internal/reduced_system.h"
 
 namespace alula::stack::slam {
@@ -17,78 +18,14 @@ using base::Vec6;
 
 namespace {
 
-constexpr double kNearest = 0.05;  // m: nearer to an eye nothing is seen
 constexpr double kBehind = 100.0;  // σ that a point counts which has come behind an eye
-using Mat36 = Eigen::Matrix<double, 3, 6>;
 using Mat63 = Eigen::Matrix<double, 6, 3>;
-
-/// A pose with what its sights need.
-struct View {
-  Mat3 R_LM;  // left camera
-  Vec3 p_LM;
-  Mat3 R_LB;
-  Mat3 R_RL = Mat3::Identity();
-  Vec3 p_RL = Vec3::Zero();
-};
-
-View ViewFrom(const Transform& X_MB, const Eyes& eyes) {
-  View view;
-  const Transform X_LB = eyes.X_BL.Inverse(), X_LM = X_LB * X_MB.Inverse();
-  view.R_LM = X_LM.R();
-  view.p_LM = X_LM.p;
-  view.R_LB = X_LB.R();
-  if (eyes.X_LR) {
-    const Transform X_RL = eyes.X_LR->Inverse();
-    view.R_RL = X_RL.R();
-    view.p_RL = X_RL.p;
-  }
-  return view;
-}
-
-Eigen::Matrix<double, 2, 3> ProjectionJacobian(const Vec3& p, const Vec2& projected) {
-  const double z = 1.0 / p.z();
-  Eigen::Matrix<double, 2, 3> J;
-  J << z, 0, -projected.x() * z, 0, z, -projected.y() * z;
-  return J;
-}
-
-/// Residual in σ, and its derivative by the point in the left camera. False behind an eye.
-bool Evaluate(const View& view, const Sight& sight, const Vec3& p_M, Vec3& r, Mat3* by_L) {
-  const Vec3 p_L = view.R_LM * p_M + view.p_LM;
-  if (p_L.z() < kNearest) return false;
-  const double w = 1.0 / sight.sigma;
-  const Vec2 left = p_L.head<2>() / p_L.z();
-  r.head<2>() = w * (left - sight.left);
-  r.z() = 0.0;
-  if (by_L != nullptr) {
-    by_L->topRows<2>() = w * ProjectionJacobian(p_L, left);
-    by_L->row(2).setZero();
-  }
-  if (!sight.right) return true;
-  const Vec3 p_R = view.R_RL * p_L + view.p_RL;
-  if (p_R.z() < kNearest) return false;
-  const Vec2 right = p_R.head<2>() / p_R.z();
-  const Eigen::Matrix<double, 2, 3> J = ProjectionJacobian(p_R, right);
-  // Along the epipolar line the projection moves with depth: d(right)/d(depth) with the left ray held.
-  const Vec2 along = (J * (view.R_RL * p_L)).normalized();
-  r.z() = w * along.dot(right - *sight.right);
-  if (by_L != nullptr) by_L->row(2) = w * along.transpose() * J * view.R_RL;
-  return true;
-}
 
 /// ρ of |r|² with width k (Huber), and the weight that it gives.
 double Huber(double square, double k, double& weight) {
   const double norm = std::sqrt(square);
   weight = norm > k ? k / norm : 1.0;
   return norm > k ? 2.0 * k * norm - k * k : square;
-}
-
-/// r = (R_FM (p_T − p_F) − z, Log(Z⁻¹ R_FT)) / σ.
-Vec6 MotionResidual(const Transform& X_MF, const Transform& X_MT, const RelativePose& motion) {
-  Vec6 r;
-  r.head<3>() = X_MF.q.conjugate() * (X_MT.p - X_MF.p) - motion.X_FT.p;
-  r.tail<3>() = base::Log(motion.X_FT.q.conjugate() * X_MF.q.conjugate() * X_MT.q);
-  return r.cwiseQuotient(motion.sigma);
 }
 
 /// The problem while it is being solved.
@@ -163,19 +100,16 @@ class Adjuster {
     Vec3 r;
     for (const BundlePoint& point : bundle_.points) {
       for (const Sight& sight : point.sights) {
-        const bool seen = Evaluate(views_[static_cast<std::size_t>(sight.pose)], sight, point.p_M, r, nullptr);
+        const bool seen = SightResidual(views_[static_cast<std::size_t>(sight.pose)], sight, point.p_M, r, nullptr);
         sum += Huber(seen ? r.squaredNorm() : kBehind * kBehind, options_.huber, weight);
       }
     }
     for (const RelativePose& m : bundle_.motions) sum += MotionResidual(Pose(m.from), Pose(m.to), m).squaredNorm();
-    for (const Vertical& v : bundle_.verticals) sum += VerticalResidual(v).squaredNorm();
+    for (const Vertical& v : bundle_.verticals) sum += VerticalResidual(Pose(v.pose), v).squaredNorm();
     return 0.5 * sum;
   }
 
   const Transform& Pose(int i) const { return bundle_.poses[static_cast<std::size_t>(i)].X_MB; }
-  Vec3 VerticalResidual(const Vertical& v) const {
-    return (Pose(v.pose).q.conjugate() * Vec3::UnitZ() - v.up_B) / v.sigma;
-  }
 
   void Linearise() {
     H_poses_.assign(static_cast<std::size_t>(free_), Mat6::Zero());
@@ -195,7 +129,7 @@ class Adjuster {
     Mat3 by_L;
     for (const Sight& sight : point.sights) {
       const View& view = views_[static_cast<std::size_t>(sight.pose)];
-      if (!Evaluate(view, sight, point.p_M, r, &by_L)) continue;
+      if (!SightResidual(view, sight, point.p_M, r, &by_L)) continue;
       double weight = 1.0;
       Huber(r.squaredNorm(), options_.huber, weight);
       const Mat3 by_M = by_L * view.R_LM;
@@ -203,7 +137,7 @@ class Adjuster {
       block.b += weight * by_M.transpose() * r;
       const int column = column_[static_cast<std::size_t>(sight.pose)];
       if (column < 0) continue;
-      const Mat36 by_pose = ByPose(sight.pose, by_L, view, point.p_M, by_M);
+      const Mat36 by_pose = ByPose(by_L, view, Pose(sight.pose), point.p_M);
       const auto c = static_cast<std::size_t>(column);
       H_poses_[c].triangularView<Eigen::Upper>() += weight * by_pose.transpose() * by_pose;
       b_poses_[c] += weight * by_pose.transpose() * r;
@@ -215,29 +149,11 @@ class Adjuster {
     blocks_.push_back(block);
   }
 
-  /// By (δp, δθ) of the pose: p_M stands still, so p_B moves by −R_BM δp + [p_B]× δθ.
-  Mat36 ByPose(int pose, const Mat3& by_L, const View& view, const Vec3& p_M, const Mat3& by_M) const {
-    const Transform& X_MB = Pose(pose);
-    const Vec3 p_B = X_MB.q.conjugate() * (p_M - X_MB.p);
-    Mat36 J;
-    J.leftCols<3>() = -by_M;
-    J.rightCols<3>() = by_L * view.R_LB * base::Hat(p_B);
-    return J;
-  }
-
   void AddMotion(const RelativePose& m) {
     const Transform &F = Pose(m.from), &T = Pose(m.to);
     const Vec6 r = MotionResidual(F, T, m);
-    const Mat3 R_FM = F.q.conjugate().toRotationMatrix(), R_TF = (T.q.conjugate() * F.q).toRotationMatrix();
-    const Mat3 J_log = base::RightJacobianInverse(base::Log(m.X_FT.q.conjugate() * F.q.conjugate() * T.q));
-    Mat6 by_F = Mat6::Zero(), by_T = Mat6::Zero();
-    by_F.topLeftCorner<3, 3>() = -R_FM;
-    by_F.topRightCorner<3, 3>() = base::Hat(R_FM * (T.p - F.p));
-    by_F.bottomRightCorner<3, 3>() = -J_log * R_TF;
-    by_T.topLeftCorner<3, 3>() = R_FM;
-    by_T.bottomRightCorner<3, 3>() = J_log;
-    by_F = m.sigma.cwiseInverse().asDiagonal() * by_F;
-    by_T = m.sigma.cwiseInverse().asDiagonal() * by_T;
+    Mat6 by_F, by_T;
+    MotionJacobians(F, T, m, by_F, by_T);
     const int f = column_[static_cast<std::size_t>(m.from)], t = column_[static_cast<std::size_t>(m.to)];
     if (f >= 0) {
       H_poses_[static_cast<std::size_t>(f)] += by_F.transpose() * by_F;
@@ -256,11 +172,10 @@ class Adjuster {
   void AddVertical(const Vertical& v) {
     const int column = column_[static_cast<std::size_t>(v.pose)];
     if (column < 0) return;
-    const Vec3 up_B = Pose(v.pose).q.conjugate() * Vec3::UnitZ();
-    const Mat3 J = base::Hat(up_B) / v.sigma;  // Exp(−δθ) u = u + [u]× δθ
+    const Mat3 J = VerticalJacobian(Pose(v.pose), v);
     const auto c = static_cast<std::size_t>(column);
     H_poses_[c].bottomRightCorner<3, 3>() += J.transpose() * J;
-    b_poses_[c].tail<3>() += J.transpose() * VerticalResidual(v);
+    b_poses_[c].tail<3>() += J.transpose() * VerticalResidual(Pose(v.pose), v);
   }
 
   /// Solves the damped system; the decrease of cost that the linear model promises, 0 where it cannot be solved.
@@ -362,12 +277,6 @@ class Adjuster {
 };
 
 }  // namespace
-
-std::optional<Vec3> ResidualOf(const Transform& X_MB, const Eyes& eyes, const Sight& sight, const Vec3& p_M) {
-  Vec3 r;
-  if (!Evaluate(ViewFrom(X_MB, eyes), sight, p_M, r, nullptr)) return std::nullopt;
-  return r;
-}
 
 BundleSummary Adjust(Bundle& bundle, const BundleOptions& options) { return Adjuster(bundle, options).Run(); }
 

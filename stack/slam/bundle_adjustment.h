@@ -9,7 +9,7 @@ namespace alula::stack::slam {
 
 /// Where the eyes sit on the body.
 struct Eyes {
-  base::Transform X_BL;              // left camera on the body
+  base::Transform X_BL;                 // left camera on the body
   std::optional<base::Transform> X_LR;  // right camera in the left one's frame, where there is one
 };
 
@@ -59,9 +59,9 @@ struct Bundle {
 };
 
 struct BundleOptions {
-  int iterations = 5;         // of Levenberg–Marquardt
-  double huber = 2.0;         // σ beyond which a sight's pull grows no more
-  double tolerance = 1e-4;    // share of the cost; a smaller step of it ends the work
+  int iterations = 5;       // of Levenberg–Marquardt
+  double huber = 2.0;       // σ beyond which a sight's pull grows no more
+  double tolerance = 1e-4;  // share of the cost; a smaller step of it ends the work
 };
 
 struct BundleSummary {

@@ -26,15 +26,16 @@ std::optional<Expected> Expect(const Landmark& landmark, const Transform& X_ML, 
   const Vec2 pixel = Project(camera, p_L);
   if (!Inside(camera, pixel, 0.0)) return std::nullopt;
   // What was seen on octave n at distance d is as large on octave n + log(d / d') / log(scale) at distance d'.
-  return Expected{pixel,
-                  landmark.reference_octave + std::log(landmark.reference_distance / distance) / std::log(config.orb.scale)};
+  return Expected{
+      pixel, landmark.reference_octave + std::log(landmark.reference_distance / distance) / std::log(config.orb.scale)};
 }
 
 }  // namespace
 
 std::vector<LandmarkMatch> FindLandmarks(const Map& map, const Keyframe& keyframe, const Transform& X_MB,
                                          const std::vector<int>& landmarks, const features::KeypointGrid& grid,
-                                         const CameraIntrinsics& camera, double radius, const MapConfig& config) {
+                                         const CameraIntrinsics& camera, double radius, const MapConfig& config,
+                                         Among among) {
   const Transform X_ML = X_MB * map.eyes.X_BL;
   std::vector<LandmarkMatch> best_of(keyframe.features.size(), LandmarkMatch{-1, 0, 0});
   for (const int id : landmarks) {
@@ -46,7 +47,7 @@ std::vector<LandmarkMatch> FindLandmarks(const Map& map, const Keyframe& keyfram
     int best = -1, distance = config.search.max_distance + 1, second = 257;
     for (const int i : grid.Around(expected->pixel, radius * scale)) {
       const KeyframeFeature& feature = keyframe.features[static_cast<std::size_t>(i)];
-      if (keyframe.landmarks[static_cast<std::size_t>(i)] >= 0) continue;
+      if ((keyframe.landmarks[static_cast<std::size_t>(i)] >= 0) != (among == Among::kTaken)) continue;
       if (std::abs(feature.octave - expected->octave) > 1.6) continue;
       const int d = features::HammingDistance(feature.descriptor, landmark.descriptor);
       if (d < distance) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "stack/features/keypoint_grid.h"
@@ -16,11 +17,15 @@ struct LandmarkMatch {
   int distance = 0;  // bits
 };
 
+/// Which features of a keyframe are looked at: those that show no landmark yet, or those that show one.
+enum class Among : std::uint8_t { kFree, kTaken };
+
 /// Landmarks that a keyframe should see from X_MB, looked for within `radius` px of where they should be: the nearest
-/// descriptor of a fitting level, each feature and landmark once (the nearer descriptor wins). Landmarks that the
-/// keyframe has already are left out, as are features that have one.
+/// descriptor of a fitting level, each feature once (the nearer descriptor wins). `landmarks`: none that it sees
+/// already.
 std::vector<LandmarkMatch> FindLandmarks(const Map& map, const Keyframe& keyframe, const base::Transform& X_MB,
                                          const std::vector<int>& landmarks, const features::KeypointGrid& grid,
-                                         const CameraIntrinsics& camera, double radius, const MapConfig& config);
+                                         const CameraIntrinsics& camera, double radius, const MapConfig& config,
+                                         Among among = Among::kFree);
 
 }  // namespace alula::stack::slam

@@ -67,8 +67,8 @@ void FuseLandmarks(Map& map, int from, int into) {
   RemoveLandmark(map, from);
   for (const Landmark::Sight& s : sights) {
     const auto& known = map.landmark(into).sights;
-    const bool there = std::any_of(known.begin(), known.end(),
-                                   [&s](const Landmark::Sight& k) { return k.keyframe == s.keyframe; });
+    const bool there =
+        std::any_of(known.begin(), known.end(), [&s](const Landmark::Sight& k) { return k.keyframe == s.keyframe; });
     if (!there) AddSight(map, into, s.keyframe, s.feature);
   }
   RefreshLandmark(map, into);

@@ -24,8 +24,8 @@ struct Landmark {
   base::Vec3 normal = base::Vec3::Zero();  // mean unit direction from the point to those who saw it
   double reference_distance = 0.0;         // m: at which it was seen at `reference_octave`
   int reference_octave = 0;
-  int born = 0;                            // the keyframe that first saw it
-  std::vector<Sight> sights;               // ascending in keyframes
+  int born = 0;               // the keyframe that first saw it
+  std::vector<Sight> sights;  // ascending in keyframes
 };
 
 /// A frame that the map remembers.

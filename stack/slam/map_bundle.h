@@ -25,7 +25,6 @@ MapBundle MakeBundle(const Map& map, const std::vector<int>& moving, const std::
 void TakeOver(const MapBundle& solved, Map& map, double gate);
 
 /// How a feature sees its landmark, for the pose of index `pose`.
-Sight SightOf(const Keyframe& keyframe, int feature, int pose, const CameraIntrinsics& camera,
-              const MapConfig& config);
+Sight SightOf(const Keyframe& keyframe, int feature, int pose, const CameraIntrinsics& camera, const MapConfig& config);
 
 }  // namespace alula::stack::slam

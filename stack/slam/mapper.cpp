@@ -15,7 +15,7 @@ using base::Vec3;
 
 namespace {
 
-constexpr int kLeastShared = 12;        // landmarks that make two keyframes neighbours
+constexpr int kLeastShared = 12;         // landmarks that make two keyframes neighbours
 constexpr std::size_t kLookAround = 30;  // keyframes whose landmarks are looked for
 constexpr double kNearby = 4.0;          // m, of keyframes that may see the same from another side
 constexpr double kSameView = 0.3;        // cosine of the angle between their optical axes
@@ -67,6 +67,7 @@ KeyframeReport Mapper::Add(KeyframeInput input) {
   dropped_.emplace_back();
   if (newest_ >= 0) report.matched = Recognise(keyframe, report);
   CreateLandmarks(keyframe, report);
+  if (report.matched > 0) FuseDuplicates(keyframe);
   newest_ = keyframe.id;
   const int every = config_.adjust.whole_every;
   if (every > 0 && keyframe.id % every == every - 1) {
@@ -199,6 +200,25 @@ void Mapper::CreateLandmarks(Keyframe& keyframe, KeyframeReport& report) {
   }
 }
 
+/// What was taken for new may be known from elsewhere: a landmark of the neighbourhood that should be seen where this
+/// keyframe sees another one, and fits there, is the same.
+void Mapper::FuseDuplicates(Keyframe& keyframe) {
+  std::vector<int> others = LocalLandmarks(keyframe);
+  std::erase_if(others, [&](int l) {
+    const auto& sights = map_.landmark(l).sights;
+    return !sights.empty() && sights.back().keyframe == keyframe.id;
+  });
+  const features::KeypointGrid grid(PixelsOf(keyframe.features), camera_.width, camera_.height);
+  for (const LandmarkMatch& m : FindLandmarks(map_, keyframe, keyframe.X_MB, others, grid, camera_,
+                                              config_.search.near_radius, config_, Among::kTaken)) {
+    const int known = keyframe.landmarks[static_cast<std::size_t>(m.feature)];
+    const Sight sight = SightOf(keyframe, m.feature, 0, camera_, config_);
+    const auto r = ResidualOf(keyframe.X_MB, map_.eyes, sight, map_.landmark(m.landmark).p_M);
+    if (known < 0 || !r || r->norm() > config_.adjust.gate) continue;
+    FuseLandmarks(map_, std::max(known, m.landmark), std::min(known, m.landmark));
+  }
+}
+
 void Mapper::AdjustAround(int id) {
   std::set<int> moving;
   const AdjustConfig& config = config_.adjust;
@@ -217,17 +237,17 @@ void Mapper::AdjustAround(int id) {
   }
   std::vector<std::pair<int, int>> watchers;  // (−shared, id)
   for (std::size_t k = 0; k < seen_by.size(); ++k) {
-    if (seen_by[k] > 0 && !moving.contains(static_cast<int>(k))) watchers.emplace_back(-seen_by[k], static_cast<int>(k));
+    if (seen_by[k] > 0 && !moving.contains(static_cast<int>(k)))
+      watchers.emplace_back(-seen_by[k], static_cast<int>(k));
   }
   std::sort(watchers.begin(), watchers.end());
   std::set<int> holding;
+  if (moving.contains(first_)) holding.insert(first_);  // the map hangs on its first keyframe
   for (const auto& [shared, k] : watchers) {
     if (static_cast<int>(holding.size()) < config.fixed) holding.insert(k);
   }
-  if (holding.empty()) {  // a young map hangs on its first keyframe
-    holding.insert(*moving.begin());
-    moving.erase(moving.begin());
-  }
+  if (holding.empty()) holding.insert(*moving.begin());
+  for (const int k : holding) moving.erase(k);
   if (moving.empty()) return;
   MapBundle part = MakeBundle(map_, {moving.begin(), moving.end()}, {holding.begin(), holding.end()}, camera_, config_);
   Adjust(part.bundle, {config.iterations, config.huber, 1e-3});
@@ -249,16 +269,20 @@ void Mapper::DropRedundantKeyframes(int id) {
   std::set<int> recent;
   for (int i = 0; i < config_.adjust.keyframes && guard >= 0; ++i, guard = map_.keyframe(guard).previous)
     recent.insert(guard);
-  for (const Covisible& c : CovisibleWith(map_, id, kLeastShared)) {
-    if (c.keyframe == 0 || recent.contains(c.keyframe)) continue;
-    const Keyframe& keyframe = map_.keyframe(c.keyframe);
+  // Newer ones go first: what the map has long been built on stays.
+  std::vector<int> neighbours;
+  for (const Covisible& c : CovisibleWith(map_, id, kLeastShared)) neighbours.push_back(c.keyframe);
+  std::sort(neighbours.rbegin(), neighbours.rend());
+  for (const int neighbour : neighbours) {
+    if (neighbour == first_ || recent.contains(neighbour)) continue;
+    const Keyframe& keyframe = map_.keyframe(neighbour);
     int all = 0, redundant = 0;
     for (const int l : keyframe.landmarks) {
       if (l < 0) continue;
       ++all;
       redundant += map_.landmark(l).sights.size() > 3 ? 1 : 0;
     }
-    if (all > 0 && redundant > config_.redundant * all) Drop(c.keyframe);
+    if (all > 0 && redundant > config_.redundant * all) Drop(neighbour);
   }
 }
 
@@ -303,9 +327,8 @@ void Mapper::AdjustWhole(int iterations, double tolerance) {
     if (keyframe) all.push_back(keyframe->id);
   }
   if (all.size() < 2) return;
-  const std::vector<int> first{all.front()};
-  all.erase(all.begin());
-  MapBundle whole = MakeBundle(map_, all, first, camera_, config_);
+  all.erase(std::find(all.begin(), all.end(), first_));
+  MapBundle whole = MakeBundle(map_, all, {first_}, camera_, config_);
   Adjust(whole.bundle, {iterations, config_.adjust.huber, tolerance});
   TakeOver(whole, map_, config_.adjust.gate);
 }

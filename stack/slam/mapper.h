@@ -20,8 +20,8 @@ struct KeyframeInput {
   base::Transform X_OB;
   Eyes eyes;
   KeyframeFeatures features;
-  /// Keyframes before it as the odometry has them now, oldest first, the one before it last: the motion since then. Empty
-  /// where the odometry has lost its way in between.
+  /// Keyframes before it as the odometry has them now, oldest first, the one before it last: the motion since then.
+  /// Empty where the odometry has lost its way in between.
   std::vector<estimation::KeyframePose> window;
 };
 
@@ -67,6 +67,7 @@ class Mapper {
   std::optional<base::Transform> Refine(const Keyframe& keyframe, const base::Transform& X_MB,
                                         std::vector<LandmarkMatch>& matches) const;
   void CreateLandmarks(Keyframe& keyframe, KeyframeReport& report);
+  void FuseDuplicates(Keyframe& keyframe);
   void AdjustAround(int keyframe);
   void AdjustWhole(int iterations, double tolerance);
   void DropPoorLandmarks(int keyframe);
@@ -77,6 +78,7 @@ class Mapper {
   MapConfig config_;
   Map map_;
   base::Transform X_MO_;
+  int first_ = 0;  // keyframe, which stays where it was put
   int newest_ = -1;
   std::vector<std::optional<Dropped>> dropped_;  // by id
 };

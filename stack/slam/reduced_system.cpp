@@ -6,7 +6,8 @@
 
 namespace alula::stack::slam {
 
-ReducedSystem::ReducedSystem(int poses) : poses_(poses), dense_(poses <= kDenseUpTo), b_(Eigen::VectorXd::Zero(6 * poses)) {
+ReducedSystem::ReducedSystem(int poses)
+    : poses_(poses), dense_(poses <= kDenseUpTo), b_(Eigen::VectorXd::Zero(6 * poses)) {
   if (dense_) {
     index_.assign(static_cast<std::size_t>(poses) * static_cast<std::size_t>(poses), -1);
   }

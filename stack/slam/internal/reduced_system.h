@@ -29,7 +29,7 @@ class ReducedSystem {
 
   int poses_;
   bool dense_;
-  std::vector<int> index_;                    // dense: of block (i, j) at i · poses + j; −1: none yet
+  std::vector<int> index_;                              // dense: of block (i, j) at i · poses + j; −1: none yet
   std::vector<std::vector<std::pair<int, int>>> rows_;  // sparse: of row i, (column, index)
   std::vector<Block, Eigen::aligned_allocator<Block>> blocks_;
   Eigen::VectorXd b_;
