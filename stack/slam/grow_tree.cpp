@@ -19,7 +19,8 @@ using Members = std::vector<std::uint32_t>;
 Descriptor Median(const std::vector<Descriptor>& all, const Members& members) {
   std::array<std::uint32_t, 256> ones{};
   for (const std::uint32_t m : members) {
-    for (std::size_t bit = 0; bit < ones.size(); ++bit) ones[bit] += all[m][bit / 64] >> (bit % 64) & 1U;
+    for (std::size_t bit = 0; bit < ones.size(); ++bit)
+      ones[bit] += static_cast<std::uint32_t>(all[m][bit / 64] >> (bit % 64) & 1U);
   }
   Descriptor median{};
   for (std::size_t bit = 0; bit < ones.size(); ++bit) {

@@ -11,19 +11,10 @@ void Insert(std::vector<KeyframeId>& sorted, KeyframeId id) {
   if (at == sorted.end() || *at != id) sorted.insert(at, id);
 }
 
-/// Mean and standard deviation of scores above 0: keyframes that share nothing with the view do not belong to what it
-/// is compared with.
-struct Spread {
-  double mean = 0.0, sigma = 0.0;
-};
-Spread SpreadOf(std::span<const PlaceCandidate> scores) {
-  double sum = 0.0, squares = 0.0;
-  for (const PlaceCandidate& c : scores) {
-    sum += c.score;
-    squares += c.score * c.score;
-  }
-  const double n = std::max<double>(1.0, static_cast<double>(scores.size()));
-  return {sum / n, std::sqrt(std::max(0.0, squares / n - sum / n * sum / n))};
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
 }
 
 }  // namespace
@@ -32,6 +23,10 @@ void Describe(base::Description& d, LoopFilterConfig& c) {
   d.Field("stay_new", c.stay_new, {.meaning = "chance that a new place is followed by one", .min = 0.01, .max = 0.999});
   d.Field("stay_known", c.stay_known,
           {.meaning = "chance that a known place is followed by it or a neighbour", .min = 0.01, .max = 0.999});
+  d.Field("break_even", c.break_even,
+          {.meaning = "spreads above the middle of the scores that say nothing", .min = 0, .max = 100});
+  d.Field("strongest", c.strongest, {.meaning = "factor on the odds by one keyframe at most", .min = 1, .max = 1e6});
+  d.Field("least_sigma", c.least_sigma, {.meaning = "spread of the scores at least", .min = 1e-6, .max = 1});
   d.Field("accept", c.accept,
           {.meaning = "probability of a place, with its neighbours, that makes a loop", .min = 0.1, .max = 1.0});
 }
@@ -78,24 +73,25 @@ std::map<KeyframeId, double> LoopFilter::Predict(double& new_place) const {
 
 void LoopFilter::Update(std::span<const PlaceCandidate> scores) {
   if (states_.empty()) return;
-  std::vector<PlaceCandidate> known;
+  std::map<KeyframeId, double> score_of;
+  for (const auto& [id, state] : states_) score_of[id] = 0.0;
   for (const PlaceCandidate& c : scores) {
-    if (states_.contains(c.id)) known.push_back(c);
+    if (const auto at = score_of.find(c.id); at != score_of.end()) at->second = c.score;
   }
-  const Spread spread = SpreadOf(known);
+  std::vector<double> values, deviations;
+  for (const auto& [id, score] : score_of) values.push_back(score);
+  const double middle = Median(values);
+  for (const double v : values) deviations.push_back(std::abs(v - middle));
+  const double sigma = std::max(1.4826 * Median(deviations), config_.least_sigma);
+
   double new_place = 0.0;
   std::map<KeyframeId, double> next = Predict(new_place);
-  if (spread.mean > 0.0) {
-    // With one score, or all alike, nothing stands out: σ is kept from being nothing against μ.
-    const double sigma = std::max(spread.sigma, 0.1 * spread.mean);
-    for (const PlaceCandidate& c : known) {
-      if (c.score >= spread.mean + sigma) next[c.id] *= (c.score - sigma) / spread.mean;
-    }
-    new_place *= 1.0 + spread.mean / sigma;
-  }
   double sum = new_place;
-  for (const auto& [id, p] : next) sum += p;
-  for (auto& [id, state] : states_) state.probability = next[id] / sum;
+  for (auto& [id, p] : next) {
+    const double evidence = std::exp((score_of.at(id) - middle) / sigma - config_.break_even);
+    sum += p *= std::clamp(evidence, 1.0 / config_.strongest, config_.strongest);
+  }
+  for (auto& [id, state] : states_) state.probability = next.at(id) / sum;
   new_place_ = new_place / sum;
 }
 

@@ -14,7 +14,11 @@ namespace alula::stack::slam {
 struct LoopFilterConfig {
   double stay_new = 0.9;    // chance that a keyframe after one of a new place shows a new place too
   double stay_known = 0.9;  // chance that one after a known place shows it or a neighbour of it
-  double accept = 0.9;      // a loop is one whose hypothesis, with its neighbours', has this probability
+  double break_even = 4.0;  // σ above the middle at which a score speaks neither for the place nor against it; of 500
+                            // unrelated keyframes the best lies 3 σ above
+  double strongest = 30.0;  // no single keyframe changes the odds by more: with it a loop takes two or three
+  double least_sigma = 0.01;  // of scores: a view of little, whose scores are all next to 0, is no evidence
+  double accept = 0.9;        // a loop is one whose hypothesis, with its neighbours', has this probability
 };
 
 void Describe(base::Description& d, LoopFilterConfig& c);
@@ -30,8 +34,12 @@ struct LoopHypothesis {
 /// place".
 ///   prediction   new → new stay_new, the rest to all keyframes alike;
 ///                known → itself and its neighbours stay_known in equal shares, the rest to new;
-///   likelihood   with mean μ and standard deviation σ of the scores: of a keyframe with score s ≥ μ + σ it is
-///                (s − σ)/μ, else 1; of a new place 1 + μ/σ.
+///   likelihood   of a keyframe with score s against a new place: exp((s − μ)/σ − break_even), cut at `strongest` and
+///   its
+///                inverse.
+/// μ and σ are the middle and the spread of all scores, of which loops are a few outliers: median and 1.4826 × median
+/// deviation. (Labbé and Michaud weigh by (s − σ)/μ against 1 + μ/σ with mean and standard deviation: there one true
+/// match among n keyframes raises σ as 1/√n, and the more keyframes there are the surer every place is new.)
 class LoopFilter {
  public:
   explicit LoopFilter(const LoopFilterConfig& config) : config_(config) {}
