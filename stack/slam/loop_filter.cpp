@@ -74,12 +74,13 @@ std::map<KeyframeId, double> LoopFilter::Predict(double& new_place) const {
 void LoopFilter::Update(std::span<const PlaceCandidate> scores) {
   if (states_.empty()) return;
   std::map<KeyframeId, double> score_of;
-  for (const auto& [id, state] : states_) score_of[id] = 0.0;
-  for (const PlaceCandidate& c : scores) {
-    if (const auto at = score_of.find(c.id); at != score_of.end()) at->second = c.score;
-  }
   std::vector<double> values, deviations;
-  for (const auto& [id, score] : score_of) values.push_back(score);
+  for (const PlaceCandidate& c : scores) {
+    if (!states_.contains(c.id)) continue;
+    score_of[c.id] = c.score;
+    values.push_back(c.score);
+  }
+  if (values.empty()) values.push_back(0.0);
   const double middle = Median(values);
   for (const double v : values) deviations.push_back(std::abs(v - middle));
   const double sigma = std::max(1.4826 * Median(deviations), config_.least_sigma);
@@ -88,7 +89,9 @@ void LoopFilter::Update(std::span<const PlaceCandidate> scores) {
   std::map<KeyframeId, double> next = Predict(new_place);
   double sum = new_place;
   for (auto& [id, p] : next) {
-    const double evidence = std::exp((score_of.at(id) - middle) / sigma - config_.break_even);
+    const auto score = score_of.find(id);
+    const double value = score == score_of.end() ? 0.0 : score->second;
+    const double evidence = std::exp((value - middle) / sigma - config_.break_even);
     sum += p *= std::clamp(evidence, 1.0 / config_.strongest, config_.strongest);
   }
   for (auto& [id, state] : states_) state.probability = next.at(id) / sum;

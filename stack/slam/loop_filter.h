@@ -37,9 +37,9 @@ struct LoopHypothesis {
 ///   likelihood   of a keyframe with score s against a new place: exp((s − μ)/σ − break_even), cut at `strongest` and
 ///   its
 ///                inverse.
-/// μ and σ are the middle and the spread of all scores, of which loops are a few outliers: median and 1.4826 × median
-/// deviation. (Labbé and Michaud weigh by (s − σ)/μ against 1 + μ/σ with mean and standard deviation: there one true
-/// match among n keyframes raises σ as 1/√n, and the more keyframes there are the surer every place is new.)
+/// μ and σ are the middle and the spread of the scores given, of which loops are a few outliers: median and 1.4826 ×
+/// median deviation. (Labbé and Michaud weigh by (s − σ)/μ against 1 + μ/σ with mean and standard deviation: there one
+/// true match among n keyframes raises σ as 1/√n, and the more keyframes there are the surer every place is new.)
 class LoopFilter {
  public:
   explicit LoopFilter(const LoopFilterConfig& config) : config_(config) {}
@@ -49,7 +49,7 @@ class LoopFilter {
   void Add(KeyframeId id, std::span<const KeyframeId> neighbours);
   void Remove(KeyframeId id);
 
-  /// One step with the scores of a query; keyframes without a score have 0, unknown ones are passed over.
+  /// One step with all scores of a query; keyframes without one have 0, unknown ones are passed over.
   void Update(std::span<const PlaceCandidate> scores);
 
   /// The most probable keyframe with its neighbours, where that reaches `accept`.

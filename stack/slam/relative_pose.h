@@ -22,9 +22,9 @@ struct RelativePoseConfig {
   int search_distance = 80;       // bits there: the place vouches for them
   bool use_gravity = true;        // where both views know it: two points a sample, and it stays in the solution
   double gravity_sigma = 0.0175;  // rad (1°), of each view's knowledge of it
-  int min_inliers = 25;           // below: chance and look-alike things
-  double min_share = 0.25;        // inliers among the points that should be seen in the other view
-  double min_spread = 0.05;       // of the focal length: 1σ of the inliers' places across their narrow direction
+  int min_inliers = 40;     // what only looks alike (mats, walls of one stone) gives 29–37, places 41 and more (98 %)
+  double min_share = 0.25;  // inliers among the points that should be seen in the other view
+  double min_spread = 0.03;         // of the focal length: 1σ of the inliers' places across their narrow direction
   double max_position_sigma = 0.2;  // m
 };
 

@@ -10,6 +10,7 @@
 
 #include "scenarios/dataset/png.h"
 #include "scenarios/dataset/sensor_yaml.h"
+#include "stack/slam/keyframe_database.h"
 #include "stack/slam/relative_pose.h"
 
 namespace alula::stack::slam {
@@ -90,6 +91,25 @@ TEST(RecordedPlaces, AreKnownAgainAndNoneFalsely) {
         EXPECT_LT(degrees, 2.0);
       }
     }
+  }
+}
+
+/// The vocabulary that comes with the source, which has seen none of these, ranks the right one first.
+TEST(RecordedPlaces, AreFoundByTheirWords) {
+  const auto folder = LoopPairs();
+  if (!folder) GTEST_SKIP() << "ALULA_DATA has no euroc_loop_pairs";
+  const Places places = Load(*folder);
+  const Vocabulary vocabulary =
+      LoadVocabulary(std::filesystem::path(ALULA_SOURCE_DIR) / "stack" / "slam" / "assets" / "vocabulary.bin");
+  KeyframeDatabase database;
+  for (KeyframeId i = 0; i < 4; ++i) database.Add(i, vocabulary.WordsOf(places.views[i]));
+  for (KeyframeId i = 0; i < 4; ++i) {
+    const std::vector<KeyframeId> itself{i};
+    const auto found = database.Query(*database.Find(i), itself);
+    ASSERT_EQ(found.size(), 3U);
+    EXPECT_EQ(found[0].id, i ^ 1U);
+    EXPECT_GT(found[0].score, 1.3 * found[1].score);
+    std::printf("%d: %.3f, next best %.3f\n", static_cast<int>(i), found[0].score, found[1].score);
   }
 }
 
