@@ -12,13 +12,14 @@ namespace alula::stack::slam {
 
 /// How hypotheses live from one keyframe to the next.
 struct LoopFilterConfig {
-  double stay_new = 0.9;    // chance that a keyframe after one of a new place shows a new place too
-  double stay_known = 0.9;  // chance that one after a known place shows it or a neighbour of it
-  double break_even = 4.0;  // σ above the middle at which a score speaks neither for the place nor against it; of 500
-                            // unrelated keyframes the best lies 3 σ above
-  double strongest = 30.0;  // no single keyframe changes the odds by more: with it a loop takes two or three
+  double stay_new = 0.9;     // chance that a keyframe after one of a new place shows a new place too
+  double stay_known = 0.9;   // chance that one after a known place shows it or a neighbour of it
+  double break_even = 2.5;   // σ above the middle at which a score speaks neither for the place nor against it: places
+                             // that are there lie 4–9 σ above, the best of 50 that are not 2–3.5
+  double strongest = 100.0;  // no single keyframe changes the odds by more: with it a loop takes two or three
   double least_sigma = 0.01;  // of scores: a view of little, whose scores are all next to 0, is no evidence
-  double accept = 0.9;        // a loop is one whose hypothesis, with its neighbours', has this probability
+  double accept = 0.6;  // a loop is one whose hypothesis, with its neighbours', has this probability: geometry has the
+                        // last word and costs some ms
 };
 
 void Describe(base::Description& d, LoopFilterConfig& c);

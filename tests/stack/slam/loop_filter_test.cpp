@@ -104,8 +104,8 @@ TEST(LoopFilter, AgreesWithTheFullMatrix) {
     std::sort(deviations.begin(), deviations.end());
     const double sigma = std::max(1.4826 * deviations[kCount / 2], 0.01);
     for (int i = 0; i < kCount; ++i) {
-      const double evidence = std::exp((scores[static_cast<std::size_t>(i)].score - middle) / sigma - 4.0);
-      next[static_cast<std::size_t>(i)] *= std::max(1.0 / 30.0, std::min(30.0, evidence));
+      const double evidence = std::exp((scores[static_cast<std::size_t>(i)].score - middle) / sigma - 2.5);
+      next[static_cast<std::size_t>(i)] *= std::max(1.0 / 100.0, std::min(100.0, evidence));
     }
     double sum = 0.0;
     for (const double value : next) sum += value;
