@@ -85,13 +85,18 @@ void LoopFilter::Update(std::span<const PlaceCandidate> scores) {
   for (const double v : values) deviations.push_back(std::abs(v - middle));
   const double sigma = std::max(1.4826 * Median(deviations), config_.least_sigma);
 
+  const auto height = [&](KeyframeId id) {
+    const auto score = score_of.find(id);
+    return ((score == score_of.end() ? 0.0 : score->second) - middle) / sigma;
+  };
   double new_place = 0.0;
   std::map<KeyframeId, double> next = Predict(new_place);
   double sum = new_place;
   for (auto& [id, p] : next) {
-    const auto score = score_of.find(id);
-    const double value = score == score_of.end() ? 0.0 : score->second;
-    const double evidence = std::exp((value - middle) / sigma - config_.break_even);
+    const double own = height(id);
+    double best = own;
+    for (const KeyframeId neighbour : KnownNeighbours(states_.at(id))) best = std::max(best, height(neighbour));
+    const double evidence = std::exp(0.5 * (own + best) - config_.break_even);
     sum += p *= std::clamp(evidence, 1.0 / config_.strongest, config_.strongest);
   }
   for (auto& [id, state] : states_) state.probability = next.at(id) / sum;

@@ -76,7 +76,7 @@ Outcome ThreeLaps(const std::string& world, std::uint64_t seed) {
 TEST(LoopsOfRenderedWorlds, AreFoundWithinAFewKeyframesAndNoneFalsely) {
   int wrong = 0, found = 0, late = 0, runs = 0;
   for (const char* world : {"machine_hall", "vicon_room", "forest", "courtyard"}) {
-    for (const std::uint64_t seed : {3ULL, 4ULL}) {
+    for (const std::uint64_t seed : {4ULL, 11ULL}) {
       const Outcome o = ThreeLaps(world, seed);
       std::printf("%-13s seed %d: first loop after %d keyframes, %d of %d confirmed, %d refused, %d wrong\n", world,
                   static_cast<int>(seed), o.first, o.found, kLap, o.refused, o.wrong);

@@ -104,7 +104,12 @@ TEST(LoopFilter, AgreesWithTheFullMatrix) {
     std::sort(deviations.begin(), deviations.end());
     const double sigma = std::max(1.4826 * deviations[kCount / 2], 0.01);
     for (int i = 0; i < kCount; ++i) {
-      const double evidence = std::exp((scores[static_cast<std::size_t>(i)].score - middle) / sigma - 2.5);
+      const double own = scores[static_cast<std::size_t>(i)].score;
+      double best = own;
+      for (int k = std::max(0, i - 1); k <= std::min(kCount - 1, i + 1); ++k) {
+        best = std::max(best, scores[static_cast<std::size_t>(k)].score);
+      }
+      const double evidence = std::exp((0.5 * (own + best) - middle) / sigma - 2.5);
       next[static_cast<std::size_t>(i)] *= std::max(1.0 / 100.0, std::min(100.0, evidence));
     }
     double sum = 0.0;
