@@ -61,8 +61,7 @@ int WatchRecording(const fs::path& folder, const CommandLine& line, nlohmann::or
   std::vector<slam::EstimatorResult> results =
       slam::FeedRecording(recording, variants, [&progress](base::Time time) { progress.Show(time); });
   progress.Clear();
-  const slam::SlamReport report =
-      slam::Judge(name, 1, std::move(results), slam::TruthOf(recording));
+  const slam::SlamReport report = slam::Judge(name, 1, std::move(results), slam::TruthOf(recording));
   slam::WriteFiles(report, line.out ? *line.out : fs::path("runs") / "slam" / name);
   const nlohmann::ordered_json json = slam::ToJson(report);
   if (line.json != "-") std::fputs(slam::ToTable(json).c_str(), stdout);

@@ -21,8 +21,7 @@ void EstimatorRun::Feed(const stack::estimation::FrameInput& frame) {
   result_.frames.push_back(frame.stamp);
   const stack::estimation::FrameResult& odometry = given.odometry;
   result_.resets = odometry.reset_counter;
-  if (odometry.initialised)
-    result_.online.push_back({odometry.state.stamp, given.X_MO * odometry.state.X_OB});
+  if (odometry.initialised) result_.online.push_back({odometry.state.stamp, given.X_MO * odometry.state.X_OB});
   if (!odometry.note.empty() &&
       std::find(result_.notes.begin(), result_.notes.end(), odometry.note) == result_.notes.end()) {
     result_.notes.push_back(odometry.note);

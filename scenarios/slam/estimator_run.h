@@ -18,14 +18,14 @@ struct Variant {
 /// What one estimator made of a recording or flight.
 struct EstimatorResult {
   std::string name;
-  std::vector<base::StampedPose> online;     // map-frame pose as known at its frame
-  std::vector<base::StampedPose> finished;   // after all optimisation
-  std::vector<base::Time> frames;                   // stamps of all frames given
-  std::vector<double> frame_ms;               // processor time of each, work at keyframes apart
-  std::vector<double> keyframe_ms;            // of the map's work at each keyframe
-  double finish_ms = 0.0;                           // of the work at the end
+  std::vector<base::StampedPose> online;    // map-frame pose as known at its frame
+  std::vector<base::StampedPose> finished;  // after all optimisation
+  std::vector<base::Time> frames;           // stamps of all frames given
+  std::vector<double> frame_ms;             // processor time of each, work at keyframes apart
+  std::vector<double> keyframe_ms;          // of the map's work at each keyframe
+  double finish_ms = 0.0;                   // of the work at the end
   std::uint32_t resets = 0;
-  std::vector<std::string> notes;                   // in the order in which they first appeared
+  std::vector<std::string> notes;  // in the order in which they first appeared
 };
 
 /// An estimator that is being fed. Reads the thread's processor clock, for the report alone.

@@ -9,7 +9,8 @@
 namespace alula::scenarios::slam {
 
 /// Hands a recording's frames to estimators, each image read once. `progress` is told the
-/// time of the recording, whole tenths of a second. Stamps are counted from the recording's first image. The start is that of the truth where there is one, else the origin.
+/// time of the recording, whole tenths of a second. Stamps are counted from the recording's first image. The start is
+/// that of the truth where there is one, else the origin.
 std::vector<EstimatorResult> FeedRecording(const dataset::Recording& recording, const std::vector<Variant>& variants,
                                            const std::function<void(base::Time)>& progress);
 

@@ -78,16 +78,16 @@ ordered_json ToJson(const SlamReport& report) {
 
 std::string ToTable(const ordered_json& report) {
   constexpr std::array<std::array<const char*, 3>, 11> kColumns{{{"ATE online", "ate_online_m", "m"},
-                                                                {"final", "ate_final_m", "m"},
-                                                                {"SE(3) onl.", "ate_se3_online_m", "m"},
-                                                                {"final", "ate_se3_final_m", "m"},
-                                                                {"as is onl.", "ate_unaligned_online_m", "m"},
-                                                                {"final", "ate_unaligned_final_m", "m"},
-                                                                {"complete", "completeness_online", ""},
-                                                                {"resets", "resets", ""},
-                                                                {"frame", "frame_median_ms", "ms"},
-                                                                {"p99", "frame_p99_ms", "ms"},
-                                                                {"mean", "frame_mean_ms", "ms"}}};
+                                                                 {"final", "ate_final_m", "m"},
+                                                                 {"SE(3) onl.", "ate_se3_online_m", "m"},
+                                                                 {"final", "ate_se3_final_m", "m"},
+                                                                 {"as is onl.", "ate_unaligned_online_m", "m"},
+                                                                 {"final", "ate_unaligned_final_m", "m"},
+                                                                 {"complete", "completeness_online", ""},
+                                                                 {"resets", "resets", ""},
+                                                                 {"frame", "frame_median_ms", "ms"},
+                                                                 {"p99", "frame_p99_ms", "ms"},
+                                                                 {"mean", "frame_mean_ms", "ms"}}};
   std::string text =
       fmt::format("{}, seed {}\n  {:16}", report["name"].get<std::string>(), report["seed"].get<std::uint64_t>(), "");
   for (const auto& [title, key, unit] : kColumns) text += fmt::format(" {:>10}", title);

@@ -178,7 +178,8 @@ class StereoInertialOdometry::Impl {
     if (keyframe) X_OC_reference_ = window_.Newest().X_OI * window_.X_IC();
     result.keyframe = keyframe;
     if (keyframe) {
-      for (const ImuState& s : window_.KeyframesBefore()) result.window.push_back({s.stamp, s.X_OI * imu_.X_BI.Inverse()});
+      for (const ImuState& s : window_.KeyframesBefore())
+        result.window.push_back({s.stamp, s.X_OI * imu_.X_BI.Inverse()});
     }
     View(tracks, result);
 

@@ -30,7 +30,7 @@ double OctaveScale(const OrbConfig& config, int octave);
 std::vector<Keypoint> DetectOrb(const Image& image, const OrbConfig& config);
 
 /// Describes given pixels (the corners of a tracker) at octave 0, one answer each: the pixel as it is given, with angle
-/// and descriptor; none within 16 px of the edge.
+/// and descriptor; none within 19 px of the edge.
 std::vector<std::optional<Keypoint>> DescribeOrb(const Image& image, std::span<const base::Vec2> pixels);
 
 }  // namespace alula::stack::features

@@ -64,7 +64,8 @@ class SlamStack final : public NavigationStack {
     const estimation::FrameResult& frame = result.odometry;
     propagator_.Correct(frame);
     X_MO_ = result.X_MO;
-    if (frame.initialised && !ever_initialised_) events_.push_back({now, "odometry_initialised", "it knows where it is"});
+    if (frame.initialised && !ever_initialised_)
+      events_.push_back({now, "odometry_initialised", "it knows where it is"});
     if (ever_initialised_ && frame.reset_counter != reset_counter_)
       events_.push_back({now, "odometry_reset", frame.note});
     initialised_ = frame.initialised;

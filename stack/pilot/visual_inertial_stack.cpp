@@ -105,8 +105,7 @@ class VisualInertialStack : public NavigationStack {
         frames_(calibration),
         watch_(config.watch),
         mission_(calibration, mission, config.mission, config.route, config.alignment, config.latency.planning, seed),
-        jobs_(workers) {
-  }
+        jobs_(workers) {}
 
   StackOutput Step(Time now, std::span<const Measurement> measurements) override {
     StackOutput output;
@@ -177,7 +176,9 @@ class VisualInertialStack : public NavigationStack {
       const auto input = std::make_shared<const estimation::FrameInput>(*next);
       const bool started = jobs_.Start(
           "odometry", "odometry", now, config_.latency.odometry,
-          [this, input] { return OdometryOutput{workshop_.odometry.Process(*input), workshop_.odometry.Timing()}; },
+          [this, input] {
+            return OdometryOutput{workshop_.odometry.Process(*input), workshop_.odometry.Timing()};
+          },
           [this, due = jobs_.Due(now, config_.latency.odometry), input](OdometryOutput result) {
             OnFrame(due, *input, result);
           });

@@ -11,10 +11,12 @@ using base::Vec3;
 
 namespace {
 
-/// Where a landmark should be seen, and on which octave; none where it should not.
+constexpr double kScales = 0.3;  // by which the logarithm of a point's scale may be off: an octave and a half of 1.2
+
+/// Where a landmark should be seen, and on which scale of the pyramid; none where it should not.
 struct Expected {
   Vec2 pixel;
-  double octave = 0.0;
+  double scale = 1.0;
 };
 std::optional<Expected> Expect(const Landmark& landmark, const Transform& X_ML, const CameraIntrinsics& camera,
                                const MapConfig& config) {
@@ -25,9 +27,8 @@ std::optional<Expected> Expect(const Landmark& landmark, const Transform& X_ML, 
   if (back.dot(landmark.normal) < std::cos(config.search.max_angle) * distance) return std::nullopt;
   const Vec2 pixel = Project(camera, p_L);
   if (!Inside(camera, pixel, 0.0)) return std::nullopt;
-  // What was seen on octave n at distance d is as large on octave n + log(d / d') / log(scale) at distance d'.
-  return Expected{
-      pixel, landmark.reference_octave + std::log(landmark.reference_distance / distance) / std::log(config.orb.scale)};
+  // What is twice as far is half as large: it is found on a scale half as coarse.
+  return Expected{pixel, landmark.reference_scale * landmark.reference_distance / distance};
 }
 
 }  // namespace
@@ -37,19 +38,19 @@ std::vector<LandmarkMatch> FindLandmarks(const Map& map, const Keyframe& keyfram
                                          const CameraIntrinsics& camera, double radius, const MapConfig& config,
                                          Among among) {
   const Transform X_ML = X_MB * map.eyes.X_BL;
-  std::vector<LandmarkMatch> best_of(keyframe.features.size(), LandmarkMatch{-1, 0, 0});
+  const double coarsest = std::pow(config.orb.scale, config.orb.levels - 1);
+  std::vector<LandmarkMatch> best_of(keyframe.view.points.size(), LandmarkMatch{-1, 0, 0});
   for (const int id : landmarks) {
     const Landmark& landmark = map.landmark(id);
     const std::optional<Expected> expected = Expect(landmark, X_ML, camera, config);
     if (!expected) continue;
-    const double octave = std::clamp(expected->octave, 0.0, config.orb.levels - 1.0);
-    const double scale = std::pow(config.orb.scale, octave);
+    const double reach = radius * std::clamp(expected->scale, 1.0, coarsest);
     int best = -1, distance = config.search.max_distance + 1, second = 257;
-    for (const int i : grid.Around(expected->pixel, radius * scale)) {
-      const KeyframeFeature& feature = keyframe.features[static_cast<std::size_t>(i)];
+    for (const int i : grid.Around(expected->pixel, reach)) {
+      const PlacePoint& point = keyframe.view.points[static_cast<std::size_t>(i)];
       if ((keyframe.landmarks[static_cast<std::size_t>(i)] >= 0) != (among == Among::kTaken)) continue;
-      if (std::abs(feature.octave - expected->octave) > 1.6) continue;
-      const int d = features::HammingDistance(feature.descriptor, landmark.descriptor);
+      if (std::abs(std::log(point.scale / expected->scale)) > kScales) continue;
+      const int d = features::HammingDistance(point.descriptor, landmark.descriptor);
       if (d < distance) {
         second = best >= 0 ? distance : second;
         distance = d;

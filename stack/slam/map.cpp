@@ -83,13 +83,13 @@ void RefreshLandmark(Map& map, int id) {
   }
   if (sum.norm() > 0) landmark.normal = sum.normalized();
   // The first sight gives the scale; the descriptor is the one that is nearest to all others (their median).
-  const auto feature = [&map](const Landmark::Sight& s) -> const KeyframeFeature& {
-    return map.keyframe(s.keyframe).features[static_cast<std::size_t>(s.feature)];
+  const auto feature = [&map](const Landmark::Sight& s) -> const PlacePoint& {
+    return map.keyframe(s.keyframe).view.points[static_cast<std::size_t>(s.feature)];
   };
   const Landmark::Sight& first = landmark.sights.front();
   const Keyframe& keyframe = map.keyframe(first.keyframe);
   landmark.reference_distance = (keyframe.X_MB * map.eyes.X_BL.p - landmark.p_M).norm();
-  landmark.reference_octave = feature(first).octave;
+  landmark.reference_scale = feature(first).scale;
   constexpr std::size_t kLooks = 8;  // newest sights that are compared
   const std::size_t begin = landmark.sights.size() > kLooks ? landmark.sights.size() - kLooks : 0;
   int best = std::numeric_limits<int>::max();

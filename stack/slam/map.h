@@ -9,7 +9,7 @@
 #include "base/frames.h"
 #include "base/time.h"
 #include "stack/slam/bundle_adjustment.h"
-#include "stack/slam/keyframe_features.h"
+#include "stack/slam/place_view.h"
 
 namespace alula::stack::slam {
 
@@ -22,10 +22,10 @@ struct Landmark {
   base::Vec3 p_M = base::Vec3::Zero();
   features::Descriptor descriptor{};
   base::Vec3 normal = base::Vec3::Zero();  // mean unit direction from the point to those who saw it
-  double reference_distance = 0.0;         // m: at which it was seen at `reference_octave`
-  int reference_octave = 0;
-  int born = 0;               // the keyframe that first saw it
-  std::vector<Sight> sights;  // ascending in keyframes
+  double reference_distance = 0.0;         // m: at which it was seen on
+  double reference_scale = 1.0;            // this scale of the image pyramid
+  int born = 0;                            // the keyframe that first saw it
+  std::vector<Sight> sights;               // ascending in keyframes
 };
 
 /// A frame that the map remembers.
@@ -36,8 +36,9 @@ struct Keyframe {
   base::Transform X_OB;  // as the odometry had it when the keyframe was taken
   base::Transform X_MB;
   base::Vec3 up_B = base::Vec3::UnitZ();
-  KeyframeFeatures features;
-  std::vector<int> landmarks;  // of each feature; −1: none
+  PlaceView view;
+  std::vector<std::optional<base::Vec2>> right;  // of each point, normalised, as the right eye saw it
+  std::vector<int> landmarks;                    // of each point; −1: none
   /// Motion from the keyframe before it, as the odometry measured it; none where it lost its way in between.
   std::optional<RelativePose> from_previous;
   int previous = -1;
@@ -64,9 +65,9 @@ struct Covisible {
 /// Keyframes that see at least `least` of the landmarks that `id` sees, most first, then oldest.
 std::vector<Covisible> CovisibleWith(const Map& map, int id, int least);
 
-/// A new landmark seen by one feature of a keyframe, which knows its depth. Its id.
+/// A new landmark seen by one point of a keyframe. Its id.
 int AddLandmark(Map& map, int keyframe, int feature, const base::Vec3& p_M);
-/// One more sight of a landmark; the feature must have none.
+/// One more sight of a landmark; the point must have none.
 void AddSight(Map& map, int landmark, int keyframe, int feature);
 /// Takes a sight away; a landmark without any goes with it.
 void RemoveSight(Map& map, int landmark, int keyframe);

@@ -7,8 +7,9 @@ namespace alula::stack::slam {
 
 Sight SightOf(const Keyframe& keyframe, int feature, int pose, const CameraIntrinsics& camera,
               const MapConfig& config) {
-  const KeyframeFeature& f = keyframe.features[static_cast<std::size_t>(feature)];
-  return {pose, f.left, f.right, config.adjust.pixel_sigma * features::OctaveScale(config.orb, f.octave) / camera.fx};
+  const auto i = static_cast<std::size_t>(feature);
+  const PlacePoint& point = keyframe.view.points[i];
+  return {pose, point.normalised, keyframe.right[i], config.adjust.pixel_sigma * point.scale / camera.fx};
 }
 
 MapBundle MakeBundle(const Map& map, const std::vector<int>& moving, const std::vector<int>& holding,

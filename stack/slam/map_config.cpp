@@ -38,6 +38,7 @@ void Describe(base::Description& d, MapConfig& c) {
   d.Field("enabled", c.enabled, {.meaning = "keep a map; off: odometry alone"});
   d.Field("latency", c.latency, {.unit = "s", .meaning = "until what a keyframe taught is known", .min = 0, .max = 10});
   d.Field("orb", c.orb, {.meaning = "keypoints of a keyframe"});
+  d.Field("farthest", c.farthest, {.unit = "m", .meaning = "where a landmark may begin", .min = 1, .max = 10000});
   d.Field("search", c.search, {.meaning = "finding landmarks again"});
   d.Field("adjust", c.adjust, {.meaning = "fitting keyframes and landmarks together"});
   d.Field("redundant", c.redundant,

@@ -38,6 +38,7 @@ struct MapConfig {
   bool enabled = true;
   double latency = 0.2;                       // s until what a keyframe taught is known
   features::OrbConfig orb{.keypoints = 400};  // of a keyframe
+  double farthest = 100.0;                    // m: where a landmark may begin
   SearchConfig search;
   AdjustConfig adjust;
   double redundant = 0.9;  // share of its landmarks that three others see: such a keyframe goes

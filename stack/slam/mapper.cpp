@@ -31,10 +31,22 @@ Vec3 OpticalAxis(const Map& map, const Keyframe& keyframe) {
   return keyframe.X_MB.q * (map.eyes.X_BL.q * Vec3::UnitZ());
 }
 
-std::vector<base::Vec2> PixelsOf(const KeyframeFeatures& features) {
+std::vector<base::Vec2> PixelsOf(const PlaceView& view) {
   std::vector<base::Vec2> pixels;
-  for (const KeyframeFeature& f : features) pixels.push_back(f.pixel);
+  for (const PlacePoint& point : view.points) pixels.push_back(point.pixel);
   return pixels;
+}
+
+/// What the right eye measured, taken back from the depths that were made of it.
+std::vector<std::optional<base::Vec2>> SeenByRightEye(const PlaceView& view, const Transform& X_LR) {
+  const Transform X_RL = X_LR.Inverse();
+  std::vector<std::optional<base::Vec2>> right(view.points.size());
+  for (std::size_t i = 0; i < right.size(); ++i) {
+    if (!view.points[i].p_C) continue;
+    const Vec3 p_R = X_RL * *view.points[i].p_C;
+    if (p_R.z() > 0.0) right[i] = base::Vec2(p_R.head<2>() / p_R.z());
+  }
+  return right;
 }
 
 /// One motion after the other.
@@ -47,7 +59,7 @@ RelativePose Compose(const RelativePose& a, const RelativePose& b) {
 
 }  // namespace
 
-Mapper::Mapper(const CameraIntrinsics& left, const MapConfig& config) : camera_(left), config_(config) {}
+Mapper::Mapper(const features::StereoRig& rig, const MapConfig& config) : rig_(rig), config_(config) {}
 
 KeyframeReport Mapper::Add(KeyframeInput input) {
   KeyframeReport report;
@@ -60,8 +72,9 @@ KeyframeReport Mapper::Add(KeyframeInput input) {
   keyframe.X_MB = X_MO_ * input.X_OB;
   map_.eyes = input.eyes;
   keyframe.up_B = input.X_OB.q.conjugate() * Vec3::UnitZ();
-  keyframe.features = std::move(input.features);
-  keyframe.landmarks.assign(keyframe.features.size(), -1);
+  keyframe.view = std::move(input.view);
+  keyframe.right = SeenByRightEye(keyframe.view, rig_.X_LR);
+  keyframe.landmarks.assign(keyframe.view.points.size(), -1);
   TakeMotions(input, keyframe);
   map_.keyframes.push_back(std::move(owned));
   dropped_.emplace_back();
@@ -134,11 +147,11 @@ std::vector<int> Mapper::LocalLandmarks(const Keyframe& keyframe) const {
 int Mapper::Recognise(Keyframe& keyframe, KeyframeReport& report) {
   const std::vector<int> landmarks = LocalLandmarks(keyframe);
   report.looked_for = static_cast<int>(landmarks.size());
-  const features::KeypointGrid grid(PixelsOf(keyframe.features), camera_.width, camera_.height);
+  const features::KeypointGrid grid(PixelsOf(keyframe.view), rig_.left.width, rig_.left.height);
   std::vector<LandmarkMatch> matches;
   Transform X_MB = keyframe.X_MB;
   for (const double radius : {config_.search.radius, config_.search.near_radius}) {
-    matches = FindLandmarks(map_, keyframe, X_MB, landmarks, grid, camera_, radius, config_);
+    matches = FindLandmarks(map_, keyframe, X_MB, landmarks, grid, rig_.left, radius, config_);
     if (static_cast<int>(matches.size()) < config_.search.least) return 0;
     const std::optional<Transform> refined = Refine(keyframe, X_MB, matches);
     if (!refined) return 0;
@@ -168,7 +181,7 @@ std::optional<Transform> Mapper::Refine(const Keyframe& keyframe, const Transfor
   }
   for (const LandmarkMatch& m : matches) {
     BundlePoint point{map_.landmark(m.landmark).p_M, {}, true};
-    point.sights.push_back(SightOf(keyframe, m.feature, 0, camera_, config_));
+    point.sights.push_back(SightOf(keyframe, m.feature, 0, rig_.left, config_));
     bundle.points.push_back(std::move(point));
   }
   const BundleOptions options{8, config_.adjust.huber, 1e-4};
@@ -192,10 +205,12 @@ std::optional<Transform> Mapper::Refine(const Keyframe& keyframe, const Transfor
 
 void Mapper::CreateLandmarks(Keyframe& keyframe, KeyframeReport& report) {
   const Transform X_ML = keyframe.X_MB * map_.eyes.X_BL;
-  for (std::size_t i = 0; i < keyframe.features.size(); ++i) {
-    const KeyframeFeature& feature = keyframe.features[i];
-    if (keyframe.landmarks[i] >= 0 || !(feature.depth > 0.0)) continue;
-    AddLandmark(map_, keyframe.id, static_cast<int>(i), X_ML * Vec3(feature.depth * feature.left.homogeneous()));
+  for (std::size_t i = 0; i < keyframe.view.points.size(); ++i) {
+    if (keyframe.landmarks[i] >= 0 || !keyframe.right[i]) continue;
+    const base::Vec2& left = keyframe.view.points[i].normalised;
+    const double depth = features::TriangulatedDepth(*map_.eyes.X_LR, left, *keyframe.right[i]);
+    if (!(depth > 0.0 && depth < config_.farthest)) continue;
+    AddLandmark(map_, keyframe.id, static_cast<int>(i), X_ML * Vec3(depth * left.homogeneous()));
     ++report.created;
   }
 }
@@ -208,11 +223,11 @@ void Mapper::FuseDuplicates(Keyframe& keyframe) {
     const auto& sights = map_.landmark(l).sights;
     return !sights.empty() && sights.back().keyframe == keyframe.id;
   });
-  const features::KeypointGrid grid(PixelsOf(keyframe.features), camera_.width, camera_.height);
-  for (const LandmarkMatch& m : FindLandmarks(map_, keyframe, keyframe.X_MB, others, grid, camera_,
+  const features::KeypointGrid grid(PixelsOf(keyframe.view), rig_.left.width, rig_.left.height);
+  for (const LandmarkMatch& m : FindLandmarks(map_, keyframe, keyframe.X_MB, others, grid, rig_.left,
                                               config_.search.near_radius, config_, Among::kTaken)) {
     const int known = keyframe.landmarks[static_cast<std::size_t>(m.feature)];
-    const Sight sight = SightOf(keyframe, m.feature, 0, camera_, config_);
+    const Sight sight = SightOf(keyframe, m.feature, 0, rig_.left, config_);
     const auto r = ResidualOf(keyframe.X_MB, map_.eyes, sight, map_.landmark(m.landmark).p_M);
     if (known < 0 || !r || r->norm() > config_.adjust.gate) continue;
     FuseLandmarks(map_, std::max(known, m.landmark), std::min(known, m.landmark));
@@ -249,7 +264,8 @@ void Mapper::AdjustAround(int id) {
   if (holding.empty()) holding.insert(*moving.begin());
   for (const int k : holding) moving.erase(k);
   if (moving.empty()) return;
-  MapBundle part = MakeBundle(map_, {moving.begin(), moving.end()}, {holding.begin(), holding.end()}, camera_, config_);
+  MapBundle part =
+      MakeBundle(map_, {moving.begin(), moving.end()}, {holding.begin(), holding.end()}, rig_.left, config_);
   Adjust(part.bundle, {config.iterations, config.huber, 1e-3});
   TakeOver(part, map_, config.gate);
 }
@@ -328,7 +344,7 @@ void Mapper::AdjustWhole(int iterations, double tolerance) {
   }
   if (all.size() < 2) return;
   all.erase(std::find(all.begin(), all.end(), first_));
-  MapBundle whole = MakeBundle(map_, all, {first_}, camera_, config_);
+  MapBundle whole = MakeBundle(map_, all, {first_}, rig_.left, config_);
   Adjust(whole.bundle, {iterations, config_.adjust.huber, tolerance});
   TakeOver(whole, map_, config_.adjust.gate);
 }

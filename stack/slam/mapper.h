@@ -18,8 +18,8 @@ struct KeyframeInput {
   std::uint32_t seq = 0;
   base::Time stamp;
   base::Transform X_OB;
-  Eyes eyes;
-  KeyframeFeatures features;
+  Eyes eyes;       // as refined so far
+  PlaceView view;  // its depths are those of the nominal rig
   /// Keyframes before it as the odometry has them now, oldest first, the one before it last: the motion since then.
   /// Empty where the odometry has lost its way in between.
   std::vector<estimation::KeyframePose> window;
@@ -40,7 +40,8 @@ struct KeyframeReport {
 /// back. (Mur-Artal and Tardós 2017, sections III.C and VI; Usenko et al. 2020 for the odometry's factors.)
 class Mapper {
  public:
-  Mapper(const CameraIntrinsics& left, const MapConfig& config);
+  /// `rig`: nominal, with which the views' depths are found.
+  Mapper(const features::StereoRig& rig, const MapConfig& config);
 
   KeyframeReport Add(KeyframeInput input);
 
@@ -74,7 +75,7 @@ class Mapper {
   void DropRedundantKeyframes(int keyframe);
   void Drop(int keyframe);
 
-  CameraIntrinsics camera_;
+  features::StereoRig rig_;
   MapConfig config_;
   Map map_;
   base::Transform X_MO_;

@@ -22,7 +22,7 @@ class Slam::Impl {
         rig_(features::MakeRig(calibration)),
         X_BL_(calibration.cameras.at(static_cast<std::size_t>((*calibration.stereo)[0])).X_BC),
         odometry_(calibration, config.odometry, X_MB_start),
-        mapper_(rig_.left, config.map) {}
+        mapper_(rig_, config.map) {}
 
   SlamResult Process(const estimation::FrameInput& frame) {
     SlamResult result;
@@ -84,7 +84,7 @@ class Slam::Impl {
     const base::Quat eye = base::Exp({rig.eye_rotation.x(), rig.eye_rotation.y(), 0.0});
     input.eyes.X_BL = {X_BL_.q * base::Exp(rig.camera_rotation), X_BL_.p};
     input.eyes.X_LR = Transform{rig_.X_LR.q * eye, rig_.X_LR.p};
-    input.features = FindKeyframeFeatures(frame.left, frame.right, rig_, config_.map.orb, config_.odometry.tracker);
+    input.view = ViewOfStereoPair(rig_, frame.left, frame.right, config_.map.orb);
     X_OB_keyframe_ = input.X_OB;
     const KeyframeReport report = mapper_.Add(std::move(input));
     taught_.push_back({frame.stamp + base::Seconds(config_.map.latency), report.X_MO});

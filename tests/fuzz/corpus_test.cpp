@@ -14,6 +14,7 @@
 #include "tests/fuzz/mesh_entry.h"
 #include "tests/fuzz/recording_entry.h"
 #include "tests/fuzz/texture_entry.h"
+#include "tests/fuzz/vocabulary_entry.h"
 #include "tests/fuzz/yaml_entry.h"
 
 namespace {
@@ -33,6 +34,7 @@ const Target kTargets[] = {
     {"faults", &alula::fuzz::ReadFaults, nullptr, "[]{},:#*'\"%- \n\t019.eEkgmsHz"},
     {"mesh", &alula::fuzz::ReadMesh, nullptr, "[]{},:\"/-+ \n\r\\#0123456789.eEvtnf=A\xff\x7f\x80\x01"},
     {"texture", &alula::fuzz::ReadTexture, &alula::fuzz::MendChecksums, "\x01\x02\x03\x04\x08\x10\x7f\x80\xff IDAT"},
+    {"vocabulary", &alula::fuzz::ReadVocabulary, nullptr, "\x01\x02\x03\x08\x10\x7f\x80\xff"},
     {"dataset", &alula::fuzz::ReadDatasetFile, &alula::fuzz::MendChecksums,
      "[]{},:#\"%- \n\t019.eEnai\x01\x02\x08\x10\xff"},
     {"recording", &alula::fuzz::ReadRecordingFile, nullptr, "[]{},:#/-. \n\t0123456789eEPTx"},

@@ -7,8 +7,9 @@ namespace alula::stack::features::internal {
 
 /// A corner of one pyramid level.
 struct LevelCorner {
-  int x = 0, y = 0;       // px of the level
-  float response = 0.0F;  // what decides who stays
+  int x = 0, y = 0;            // px of the level
+  float response = 0.0F;       // what decides who stays
+  float dx = 0.0F, dy = 0.0F;  // from the whole pixel to its place, within ±½ px
 };
 
 /// At most `wanted` corners spread over the box [0, width) × [0, height): square roots are divided into four, largest

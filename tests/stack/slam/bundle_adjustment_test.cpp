@@ -32,7 +32,8 @@ Bundle Scene() {
   bundle.eyes = StereoEyes();
   for (int i = 0; i < 6; ++i) {
     const double s = 0.3 * i;
-    bundle.poses.push_back({{base::FromYawPitchRoll(0.1 * s, 0.05 * s, -0.04 * i), Vec3(0.1 * s, s, 0.1 * s * s)}, i == 0});
+    bundle.poses.push_back(
+        {{base::FromYawPitchRoll(0.1 * s, 0.05 * s, -0.04 * i), Vec3(0.1 * s, s, 0.1 * s * s)}, i == 0});
     bundle.verticals.push_back({i, bundle.poses.back().X_MB.q.conjugate() * Vec3::UnitZ(), 0.004});
   }
   for (int k = 0; k < 80; ++k) {
@@ -40,7 +41,8 @@ Bundle Scene() {
     point.p_M = Vec3(random.Uniform(3, 6), random.Uniform(-2, 3), random.Uniform(-1.5, 1.5));
     for (int i = 0; i < 6; ++i) {
       Sight sight{i, Vec2::Zero(), Vec2::Zero(), 1.0 / 458};
-      const Vec3 p_L = bundle.eyes.X_BL.Inverse() * (bundle.poses[static_cast<std::size_t>(i)].X_MB.Inverse() * point.p_M);
+      const Vec3 p_L =
+          bundle.eyes.X_BL.Inverse() * (bundle.poses[static_cast<std::size_t>(i)].X_MB.Inverse() * point.p_M);
       const Vec3 p_R = bundle.eyes.X_LR->Inverse() * p_L;
       sight.left = p_L.head<2>() / p_L.z();
       sight.right = Vec2(p_R.head<2>() / p_R.z());
@@ -53,8 +55,8 @@ Bundle Scene() {
     RelativePose motion;
     motion.from = i - 1;
     motion.to = i;
-    motion.X_FT = bundle.poses[static_cast<std::size_t>(i - 1)].X_MB.Inverse() *
-                  bundle.poses[static_cast<std::size_t>(i)].X_MB;
+    motion.X_FT =
+        bundle.poses[static_cast<std::size_t>(i - 1)].X_MB.Inverse() * bundle.poses[static_cast<std::size_t>(i)].X_MB;
     motion.sigma << Vec3::Constant(0.01), Vec3::Constant(0.002);
     bundle.motions.push_back(motion);
   }
@@ -174,8 +176,10 @@ TEST(BundleResiduals, JacobiansOfAMotionAndTheVerticalAgreeWithDifferences) {
   const RelativePose& motion = scene.motions[1];
   Mat6 by_F, by_T;
   MotionJacobians(F, T, motion, by_F, by_T);
-  ExpectJacobian([&](const Eigen::VectorXd& d) -> Eigen::VectorXd { return MotionResidual(Moved(F, d), T, motion); }, by_F);
-  ExpectJacobian([&](const Eigen::VectorXd& d) -> Eigen::VectorXd { return MotionResidual(F, Moved(T, d), motion); }, by_T);
+  ExpectJacobian([&](const Eigen::VectorXd& d) -> Eigen::VectorXd { return MotionResidual(Moved(F, d), T, motion); },
+                 by_F);
+  ExpectJacobian([&](const Eigen::VectorXd& d) -> Eigen::VectorXd { return MotionResidual(F, Moved(T, d), motion); },
+                 by_T);
   const Vertical vertical{0, Vec3(0.1, -0.05, 0.99).normalized(), 0.004};
   ExpectJacobian(
       [&](const Eigen::VectorXd& d) -> Eigen::VectorXd {

@@ -43,26 +43,27 @@ struct Room {
     }
   }
 
-  KeyframeFeatures SeenFrom(const Transform& X_WB, base::RandomStream& noise) const {
+  PlaceView SeenFrom(const Transform& X_WB, base::RandomStream& noise) const {
     const CameraIntrinsics camera = Camera();
     const Eyes eyes = StereoEyes();
     const Transform X_LW = (X_WB * eyes.X_BL).Inverse();
-    KeyframeFeatures features;
+    PlaceView view;
+    view.focal = 458;
+    view.focal_baseline = 458 * 0.11;
     for (const Spot& spot : spots) {
       const Vec3 p_L = X_LW * spot.p_W;
       if (p_L.z() < 0.5) continue;
       const Vec2 exact = Project(camera, p_L);
       if (!Inside(camera, exact, 2)) continue;
-      KeyframeFeature f;
+      PlacePoint f;
       f.pixel = exact + kPixelNoise * Vec2(noise.Gaussian(), noise.Gaussian());
-      f.left = Normalise(camera, f.pixel);
+      f.normalised = Normalise(camera, f.pixel);
       const double disparity = 458 * 0.11 / p_L.z() + 0.2 * noise.Gaussian();
-      f.right = Vec2(f.left - Vec2(disparity / 458, 0));
-      f.depth = 458 * 0.11 / disparity;
+      f.p_C = 458 * 0.11 / disparity * f.normalised.homogeneous();
       f.descriptor = spot.descriptor;
-      features.push_back(f);
+      view.points.push_back(f);
     }
-    return features;
+    return view;
   }
 };
 
@@ -82,7 +83,7 @@ struct Flown {
 };
 Flown FlyTwoRounds(const MapConfig& config) {
   const Room room(700);
-  Flown flown{Mapper(Camera(), config), {}};
+  Flown flown{Mapper({Camera(), Camera(), *StereoEyes().X_LR}, config), {}};
   base::RandomStream noise(2, "test/noise");
   for (int i = 0; i < 120; ++i) {
     KeyframeInput input;
@@ -90,7 +91,7 @@ Flown FlyTwoRounds(const MapConfig& config) {
     input.stamp = Time{} + base::Milliseconds(300 * i);
     input.X_OB = DriftingAt(i);
     input.eyes = StereoEyes();
-    input.features = room.SeenFrom(TruthAt(i), noise);
+    input.view = room.SeenFrom(TruthAt(i), noise);
     for (int k = std::max(0, i - 5); k < i; ++k)
       input.window.push_back({Time{} + base::Milliseconds(300 * k), DriftingAt(k)});
     flown.reports.push_back(flown.mapper.Add(std::move(input)));
@@ -117,8 +118,7 @@ TEST(Mapper, TheEndIsBetterThanTheWay) {
   Flown flown = FlyTwoRounds({});
   flown.mapper.Finish();
   double worst = 0.0;
-  for (int i = 0; i < 120; ++i)
-    worst = std::max(worst, (flown.mapper.PoseOf(i).p - TruthAt(i).p).norm());
+  for (int i = 0; i < 120; ++i) worst = std::max(worst, (flown.mapper.PoseOf(i).p - TruthAt(i).p).norm());
   EXPECT_LT(worst, 0.03);
 }
 
