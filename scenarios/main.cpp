@@ -23,6 +23,8 @@ int Main(int argc, char** argv) {
       return commands::Replay(line);
     case CommandLine::Verb::kSlam:
       return commands::Slam(line);
+    case CommandLine::Verb::kTrainVocabulary:
+      return commands::TrainVocabulary(line);
     case CommandLine::Verb::kList:
       return commands::List(line);
     case CommandLine::Verb::kCheck:

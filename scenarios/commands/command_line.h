@@ -42,6 +42,7 @@ struct CommandLine {
     kSweep,
     kReplay,
     kSlam,
+    kTrainVocabulary,
     kList,
     kCheck,
     kCheckSensors,

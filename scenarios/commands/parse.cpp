@@ -189,14 +189,21 @@ CLI::App* AddReplay(CLI::App& app, CommandLine& line, Raw& raw) {
   return verb;
 }
 
-CLI::App* AddSlam(CLI::App& app, CommandLine& line, Raw& raw) {
-  CLI::App* verb = app.add_subcommand(
+/// `slam SOURCES…` and `slam train-vocabulary`: the sources are required by hand, because CLI11 would want them of
+/// both.
+struct SlamVerb {
+  CLI::App* estimate = nullptr;
+  CLI::App* train = nullptr;
+};
+SlamVerb AddSlam(CLI::App& app, CommandLine& line, Raw& raw) {
+  SlamVerb slam;
+  CLI::App* verb = slam.estimate = app.add_subcommand(
       "slam", "run the estimator on recorded data, or along a flight as it is rendered, and measure its trajectory");
-  verb->add_option("sources", line.names, "folders of recordings (EuRoC's layout), scenarios of the catalog or files")
-      ->required();
-  verb->add_option("--variant", line.variants,
-                   "NAME or NAME:KEY=VALUE,KEY=VALUE: an estimator with these keys of `stack` changed; all variants see "
-                   "the same images (may be repeated)")
+  verb->add_option("sources", line.names, "folders of recordings (EuRoC's layout), scenarios of the catalog or files");
+  verb->add_option(
+          "--variant", line.variants,
+          "NAME or NAME:KEY=VALUE,KEY=VALUE: an estimator with these keys of `stack` changed; all variants see "
+          "the same images (may be repeated)")
       ->take_all();
   AddSet(*verb, raw);
   verb->add_option("--seeds", line.sweep.seeds, "of scenarios, one flight each: 1-3 or 1,5 (default: the scenario's)");
@@ -204,7 +211,12 @@ CLI::App* AddSlam(CLI::App& app, CommandLine& line, Raw& raw) {
   verb->add_option("--out", raw.out, "folder of the trajectories (default: runs/slam/<name>)");
   verb->add_flag("--quiet", line.quiet, "no progress");
   AddJson(*verb, raw, "all figures");
-  return verb;
+  slam.train = verb->add_subcommand("train-vocabulary",
+                                    "draw views of all worlds of the catalog and train the tree of visual words");
+  slam.train->add_option("--out", raw.out, "the file to write")->type_name("FILE")->required();
+  AddRender(*slam.train, line);
+  slam.train->add_flag("--quiet", line.quiet, "no progress");
+  return slam;
 }
 
 dataset::Format FormatOf(const std::string& word) {
@@ -313,7 +325,7 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
   CLI::App* dataset = AddExport(app, line, raw);
   CLI::App* sweep = AddSweep(app, line, raw);
   CLI::App* replay = AddReplay(app, line, raw);
-  CLI::App* slam = AddSlam(app, line, raw);
+  const SlamVerb slam = AddSlam(app, line, raw);
   CLI::App* list = app.add_subcommand("list", "name the scenarios, vehicles and worlds of the catalogs");
   list->add_option("kind", line.kind, "scenarios, vehicles or worlds alone")
       ->check(CLI::IsMember({"scenarios", "vehicles", "worlds"}));
@@ -355,7 +367,13 @@ std::optional<int> ParseCommandLine(int argc, char** argv, CommandLine& line) {
     CheckSweep(line);
   }
   if (replay->parsed()) line.verb = CommandLine::Verb::kReplay;
-  if (slam->parsed()) line.verb = CommandLine::Verb::kSlam;
+  if (slam.train->parsed()) {
+    if (!line.names.empty()) throw base::InputError("slam train-vocabulary: takes no sources");
+    line.verb = CommandLine::Verb::kTrainVocabulary;
+  } else if (slam.estimate->parsed()) {
+    if (line.names.empty()) throw base::InputError("slam: sources are required ('alula slam --help' shows how)");
+    line.verb = CommandLine::Verb::kSlam;
+  }
   if (list->parsed()) line.verb = CommandLine::Verb::kList;
   if (check.sensors->parsed()) {
     line.verb = CommandLine::Verb::kCheckSensors;

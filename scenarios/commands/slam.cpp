@@ -14,6 +14,7 @@
 #include "scenarios/slam/flight_feed.h"
 #include "scenarios/slam/recording_feed.h"
 #include "scenarios/slam/slam_report.h"
+#include "scenarios/slam/train_vocabulary.h"
 #include "scenarios/slam/variants.h"
 #include "scenarios/write_file.h"
 
@@ -91,6 +92,16 @@ int Slam(const CommandLine& line) {
   }
   if (!line.json.empty()) WriteFile("--json", line.json, all.dump(2) + "\n");
   return worst;
+}
+
+int TrainVocabulary(const CommandLine& line) {
+  slam::VocabularyTraining training;
+  training.render = line.render;
+  const std::size_t bytes = slam::WriteVocabulary(training, *line.out, [&line](int done, int of) {
+    if (line.talks()) std::fprintf(stderr, "%d of %d worlds drawn\n", done, of);
+  });
+  std::printf("%s: %zu bytes\n", line.out->c_str(), bytes);
+  return kExitPassed;
 }
 
 }  // namespace alula::scenarios::commands

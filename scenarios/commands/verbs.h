@@ -17,5 +17,6 @@ int Bench(const CommandLine& line);
 int Sweep(const CommandLine& line);
 int Replay(const CommandLine& line);
 int Slam(const CommandLine& line);
+int TrainVocabulary(const CommandLine& line);
 
 }  // namespace alula::scenarios::commands
