@@ -85,10 +85,10 @@ std::vector<CatalogEntry> ListCatalogs() {
   const std::vector<fs::path> folders = Catalogs();
   for (std::size_t i = 0; i < folders.size(); ++i) {
     const std::size_t first = entries.size();
-    for (const fs::directory_entry& entry : fs::directory_iterator(folders[i])) {
+    for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folders[i])) {
       const fs::path& path = entry.path();
       if (path.extension() != ".yaml" || path.filename().string().front() == '_') continue;
-      entries.push_back({kKinds[i], path.stem().string(), path});
+      entries.push_back({kKinds[i], NameOf(path), path});
     }
     std::sort(entries.begin() + static_cast<std::ptrdiff_t>(first), entries.end(),
               [](const CatalogEntry& a, const CatalogEntry& b) { return a.name < b.name; });
@@ -104,8 +104,23 @@ std::vector<fs::path> ListScenarios() {
   return files;
 }
 
+std::string NameOf(const fs::path& file) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(file, error);
+  for (const fs::path& folder : Catalogs()) {
+    const fs::path inside = whole.lexically_relative(fs::weakly_canonical(folder, error));
+    if (!inside.empty() && *inside.begin() != "..") return (inside.parent_path() / inside.stem()).generic_string();
+  }
+  return file.stem().string();
+}
+
 CatalogEntry FindAny(std::string_view name_or_path) {
   const fs::path given(name_or_path);
+  std::vector<std::string> names;
+  for (const CatalogEntry& entry : ListCatalogs()) {
+    if (entry.name == name_or_path) return entry;
+    names.push_back(entry.name);
+  }
   if (given.extension() == ".yaml" || given.extension() == ".yml" || given.has_parent_path()) {
     if (!fs::is_regular_file(given)) throw base::InputError(given.string() + ": no such file");
     const std::vector<fs::path> folders = Catalogs();
@@ -116,25 +131,20 @@ CatalogEntry FindAny(std::string_view name_or_path) {
     }
     return {kKinds[0], given.stem().string(), given};
   }
-  std::vector<std::string> names;
-  for (const CatalogEntry& entry : ListCatalogs()) {
-    if (entry.name == name_or_path) return entry;
-    names.push_back(entry.name);
-  }
   throw base::InputError("nothing in the catalogs is called '" + std::string(name_or_path) + "'; " +
                          base::Suggestion(name_or_path, names, "names"));
 }
 
 fs::path FindScenario(std::string_view name_or_path) {
   const fs::path given(name_or_path);
+  std::vector<std::string> names;
+  for (const fs::path& file : ListScenarios()) {
+    names.push_back(NameOf(file));
+    if (names.back() == name_or_path) return file;
+  }
   if (given.extension() == ".yaml" || given.extension() == ".yml" || given.has_parent_path()) {
     if (!fs::is_regular_file(given)) throw base::InputError(given.string() + ": no such file");
     return given;
-  }
-  std::vector<std::string> names;
-  for (const fs::path& file : ListScenarios()) {
-    names.push_back(file.stem().string());
-    if (names.back() == name_or_path) return file;
   }
   throw base::InputError("no scenario is called '" + std::string(name_or_path) + "'; " +
                          base::Suggestion(name_or_path, names, "scenarios"));
@@ -162,7 +172,7 @@ base::YamlDocument LoadScenarioDocument(const fs::path& file, const std::vector<
 
 Scenario LoadScenario(const fs::path& file, const std::vector<base::Override>& overrides,
                       std::optional<std::uint64_t> seed) {
-  return ResolveScenario(LoadScenarioDocument(file, overrides), file.stem().string(), seed);
+  return ResolveScenario(LoadScenarioDocument(file, overrides), NameOf(file), seed);
 }
 
 }  // namespace alula::scenarios

@@ -101,6 +101,10 @@ struct Scenario {
 /// The folders in which names are looked up, those of scenarios first.
 std::vector<std::filesystem::path> Catalogs();
 
+/// What a scenario's, vehicle's or world's file is called: in a catalog its path from there ("slam/white_wall"), else
+/// its plain name; without ".yaml".
+std::string NameOf(const std::filesystem::path& file);
+
 /// A name of the catalog or the path of a file. Throws base::InputError with the nearest known name.
 std::filesystem::path FindScenario(std::string_view name_or_path);
 

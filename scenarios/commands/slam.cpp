@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 namespace {
 
 fs::path FolderOf(const CommandLine& line, const std::string& name, std::uint64_t seed) {
-  const fs::path all = line.out ? *line.out : fs::path("runs") / "slam" / name;
+  const fs::path all = line.out ? *line.out : fs::path("runs") / "slam" / fs::path(name).filename();
   return all / std::to_string(seed);
 }
 
