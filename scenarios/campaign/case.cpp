@@ -73,7 +73,7 @@ std::size_t SweepPlan::Variants() const {
 
 CaseMaker::CaseMaker(SweepPlan plan) : plan_(std::move(plan)) {
   const std::filesystem::path file = plan_.scenario;
-  name_ = NameOf(file);
+  name_ = file.stem().string();
   std::vector<base::Override> overrides = plan_.overrides;
   for (const base::Override& given : VariantOf(0)) overrides.push_back(given);
   base::YamlDocument document = LoadScenarioDocument(file, overrides);

@@ -107,7 +107,7 @@ int Worker(const CommandLine& line) {
 
 int Search(const SweepRequest& request, const CommandLine& line) {
   if (!line.sweep.require.empty()) throw base::InputError("sweep: --search and --require exclude each other");
-  SweepProgress progress(NameOf(request.plan.scenario), line.talks(), false);
+  SweepProgress progress(fs::path(request.plan.scenario).stem().string(), line.talks(), false);
   SweepRequest told = request;
   told.news = [&progress](const SweepNews& news) { progress.Show(news); };
   const FailureSweepResult result = SearchFailures(told, {});
@@ -129,7 +129,7 @@ int SlurmSweep(const SweepRequest& sweep, const CommandLine& line) {
     std::fputs(DryRun(request).c_str(), stdout);
     return kExitPassed;
   }
-  SweepProgress progress(NameOf(sweep.plan.scenario), line.talks());
+  SweepProgress progress(fs::path(sweep.plan.scenario).stem().string(), line.talks());
   request.sweep.news = [&progress](const SweepNews& news) { progress.Show(news); };
   if (line.talks()) {
     request.tell = [&progress](const std::string& text) {
@@ -153,7 +153,7 @@ int SweepOrWorse(const CommandLine& line) {
   if (!line.sweep.compare.empty()) return Compare(line);
   SweepRequest request;
   request.plan = PlanOf(line);
-  const std::string name = NameOf(request.plan.scenario);
+  const std::string name = fs::path(request.plan.scenario).stem().string();
   request.out = line.out ? *line.out : fs::path("sweeps") / name;
   request.fresh = line.sweep.fresh;
   for (const std::string& text : line.sweep.require) {
