@@ -93,9 +93,9 @@ void MeasurePlaces(const features::StereoRig& rig, const std::vector<Pair>& pair
   for (const Pair& p : pairs) views.push_back(slam::ViewOfStereoPair(rig, p.left, p.right, {}));
   figures.Add("places/vicon_room/stereo_view/752x480_ms",
               Median([&](std::size_t i) { slam::ViewOfStereoPair(rig, pairs[2 * i].left, pairs[2 * i].right, {}); }));
-  const slam::Vocabulary vocabulary = slam::LoadVocabulary(scenarios::slam::VocabularyPath());
+  const slam::Vocabulary vocabulary = slam::LoadVocabulary(slam::VocabularyPath());
   figures.Add("places/vicon_room/vocabulary/load_ms",
-              Median([&](std::size_t) { slam::LoadVocabulary(scenarios::slam::VocabularyPath()); }));
+              Median([&](std::size_t) { slam::LoadVocabulary(slam::VocabularyPath()); }));
   figures.Add("places/vicon_room/vocabulary/words_of_500_ms",
               Median([&](std::size_t i) { vocabulary.WordsOf(views[2 * i]); }));
   slam::KeyframeDatabase database;  // the same views again and again, each time with some other points

@@ -21,6 +21,8 @@ void EstimatorRun::Feed(const stack::estimation::FrameInput& frame) {
   result_.frames.push_back(frame.stamp);
   const stack::estimation::FrameResult& odometry = given.odometry;
   result_.resets = odometry.reset_counter;
+  result_.loops = std::max(result_.loops, given.loops);
+  result_.joins = std::max(result_.joins, given.joins);
   if (odometry.initialised) result_.online.push_back({odometry.state.stamp, given.X_MO * odometry.state.X_OB});
   if (!odometry.note.empty() &&
       std::find(result_.notes.begin(), result_.notes.end(), odometry.note) == result_.notes.end()) {

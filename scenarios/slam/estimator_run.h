@@ -25,6 +25,8 @@ struct EstimatorResult {
   std::vector<double> keyframe_ms;          // of the map's work at each keyframe
   double finish_ms = 0.0;                   // of the work at the end
   std::uint32_t resets = 0;
+  int loops = 0;  // closed by the map
+  int joins = 0;  // of its parts
   std::vector<std::string> notes;  // in the order in which they first appeared
 };
 

@@ -68,6 +68,8 @@ ordered_json ToJson(const SlamReport& report) {
     ordered_json figures = FiguresOf(result, report);
     figures["images"] = result.frames.size();
     figures["resets"] = result.resets;
+    figures["loops"] = result.loops;
+    figures["joins"] = result.joins;
     AddTimes("frame", result.frame_ms, figures);
     AddTimes("keyframe", result.keyframe_ms, figures);
     figures["finish_ms"] = result.finish_ms;
@@ -77,7 +79,7 @@ ordered_json ToJson(const SlamReport& report) {
 }
 
 std::string ToTable(const ordered_json& report) {
-  constexpr std::array<std::array<const char*, 3>, 11> kColumns{{{"ATE online", "ate_online_m", "m"},
+  constexpr std::array<std::array<const char*, 3>, 13> kColumns{{{"ATE online", "ate_online_m", "m"},
                                                                  {"final", "ate_final_m", "m"},
                                                                  {"SE(3) onl.", "ate_se3_online_m", "m"},
                                                                  {"final", "ate_se3_final_m", "m"},
@@ -85,6 +87,8 @@ std::string ToTable(const ordered_json& report) {
                                                                  {"final", "ate_unaligned_final_m", "m"},
                                                                  {"complete", "completeness_online", ""},
                                                                  {"resets", "resets", ""},
+                                                                 {"loops", "loops", ""},
+                                                                 {"joins", "joins", ""},
                                                                  {"frame", "frame_median_ms", "ms"},
                                                                  {"p99", "frame_p99_ms", "ms"},
                                                                  {"mean", "frame_mean_ms", "ms"}}};

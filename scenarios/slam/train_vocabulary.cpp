@@ -71,8 +71,4 @@ std::size_t WriteVocabulary(const VocabularyTraining& training, const std::files
   return bytes.size();
 }
 
-std::filesystem::path VocabularyPath() {
-  return std::filesystem::path(ALULA_SOURCE_DIR) / "stack" / "slam" / "assets" / "vocabulary.bin";
-}
-
 }  // namespace alula::scenarios::slam

@@ -32,7 +32,4 @@ stack::slam::TrainingSet CollectTrainingSet(const VocabularyTraining& training, 
 std::size_t WriteVocabulary(const VocabularyTraining& training, const std::filesystem::path& file,
                             const TrainingProgress& progress);
 
-/// The vocabulary that comes with the source: <source tree>/stack/slam/assets/vocabulary.bin.
-std::filesystem::path VocabularyPath();
-
 }  // namespace alula::scenarios::slam

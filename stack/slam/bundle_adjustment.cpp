@@ -104,7 +104,7 @@ class Adjuster {
         sum += Huber(seen ? r.squaredNorm() : kBehind * kBehind, options_.huber, weight);
       }
     }
-    for (const RelativePose& m : bundle_.motions) sum += MotionResidual(Pose(m.from), Pose(m.to), m).squaredNorm();
+    for (const RelativeMotion& m : bundle_.motions) sum += MotionResidual(Pose(m.from), Pose(m.to), m).squaredNorm();
     for (const Vertical& v : bundle_.verticals) sum += VerticalResidual(Pose(v.pose), v).squaredNorm();
     return 0.5 * sum;
   }
@@ -118,7 +118,7 @@ class Adjuster {
     blocks_.clear();
     for (const BundlePoint& point : bundle_.points) AddPoint(point);
     between_.clear();
-    for (const RelativePose& motion : bundle_.motions) AddMotion(motion);
+    for (const RelativeMotion& motion : bundle_.motions) AddMotion(motion);
     for (const Vertical& vertical : bundle_.verticals) AddVertical(vertical);
   }
 
@@ -149,7 +149,7 @@ class Adjuster {
     blocks_.push_back(block);
   }
 
-  void AddMotion(const RelativePose& m) {
+  void AddMotion(const RelativeMotion& m) {
     const Transform &F = Pose(m.from), &T = Pose(m.to);
     const Vec6 r = MotionResidual(F, T, m);
     Mat6 by_F, by_T;

@@ -36,7 +36,7 @@ struct BundlePose {
 
 /// Motion between two keyframes as the odometry measured it: X_FT with 1σ of its position (m, axes of F) and attitude
 /// (rad, axes of T).
-struct RelativePose {
+struct RelativeMotion {
   int from = 0, to = 0;
   base::Transform X_FT;
   base::Vec6 sigma = base::Vec6::Ones();
@@ -54,7 +54,7 @@ struct Bundle {
   Eyes eyes;
   std::vector<BundlePose> poses;
   std::vector<BundlePoint> points;
-  std::vector<RelativePose> motions;
+  std::vector<RelativeMotion> motions;
   std::vector<Vertical> verticals;
 };
 

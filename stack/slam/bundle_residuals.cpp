@@ -67,14 +67,15 @@ Mat36 ByPose(const Mat3& by_L, const View& view, const Transform& X_MB, const Ve
   return J;
 }
 
-Vec6 MotionResidual(const Transform& X_MF, const Transform& X_MT, const RelativePose& motion) {
+Vec6 MotionResidual(const Transform& X_MF, const Transform& X_MT, const RelativeMotion& motion) {
   Vec6 r;
   r.head<3>() = X_MF.q.conjugate() * (X_MT.p - X_MF.p) - motion.X_FT.p;
   r.tail<3>() = base::Log(motion.X_FT.q.conjugate() * X_MF.q.conjugate() * X_MT.q);
   return r.cwiseQuotient(motion.sigma);
 }
 
-void MotionJacobians(const Transform& X_MF, const Transform& X_MT, const RelativePose& motion, Mat6& by_F, Mat6& by_T) {
+void MotionJacobians(const Transform& X_MF, const Transform& X_MT, const RelativeMotion& motion, Mat6& by_F,
+                     Mat6& by_T) {
   const Mat3 R_FM = X_MF.q.conjugate().toRotationMatrix(), R_TF = (X_MT.q.conjugate() * X_MF.q).toRotationMatrix();
   const Mat3 J_log = base::RightJacobianInverse(base::Log(motion.X_FT.q.conjugate() * X_MF.q.conjugate() * X_MT.q));
   by_F.setZero();

@@ -80,7 +80,7 @@ void LoopFilter::Update(std::span<const PlaceCandidate> scores) {
     score_of[c.id] = c.score;
     values.push_back(c.score);
   }
-  if (values.empty()) values.push_back(0.0);
+  values.resize(states_.size(), 0.0);  // what shares no word with the view is unlike it
   const double middle = Median(values);
   for (const double v : values) deviations.push_back(std::abs(v - middle));
   const double sigma = std::max(1.4826 * Median(deviations), config_.least_sigma);

@@ -29,6 +29,7 @@ std::vector<Covisible> CovisibleWith(const Map& map, int id, int least) {
 int AddLandmark(Map& map, int keyframe, int feature, const Vec3& p_M) {
   const int id = static_cast<int>(map.landmarks.size());
   auto landmark = std::make_unique<Landmark>();
+  landmark->part = map.keyframe(keyframe).part;
   landmark->p_M = p_M;
   landmark->born = keyframe;
   map.landmarks.push_back(std::move(landmark));

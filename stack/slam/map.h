@@ -19,6 +19,7 @@ struct Landmark {
     int keyframe = 0;
     int feature = 0;
   };
+  int part = 0;  // of the map
   base::Vec3 p_M = base::Vec3::Zero();
   features::Descriptor descriptor{};
   base::Vec3 normal = base::Vec3::Zero();  // mean unit direction from the point to those who saw it
@@ -31,6 +32,7 @@ struct Landmark {
 /// A frame that the map remembers.
 struct Keyframe {
   int id = 0;
+  int part = 0;  // of the map
   std::uint32_t seq = 0;
   base::Time stamp;
   base::Transform X_OB;  // as the odometry had it when the keyframe was taken
@@ -40,15 +42,18 @@ struct Keyframe {
   std::vector<std::optional<base::Vec2>> right;  // of each point, normalised, as the right eye saw it
   std::vector<int> landmarks;                    // of each point; −1: none
   /// Motion from the keyframe before it, as the odometry measured it; none where it lost its way in between.
-  std::optional<RelativePose> from_previous;
+  std::optional<RelativeMotion> from_previous;
   int previous = -1;
 };
 
-/// Keyframes and landmarks by id; those that were dropped leave a null. Ids are never given twice.
+/// Keyframes and landmarks by id; those that were dropped leave a null. Ids are never given twice. Where the way was
+/// lost a new part begins: parts share no landmarks, and how they lie to one another is a guess until one is recognised
+/// in the other (an atlas: Campos et al. 2021).
 struct Map {
   Eyes eyes;  // as known now; the rig is one through the whole map
   std::vector<std::unique_ptr<Keyframe>> keyframes;
   std::vector<std::unique_ptr<Landmark>> landmarks;
+  std::vector<int> anchors;  // of each part, its first keyframe, which holds it; −1: it was joined to another
 
   Keyframe& keyframe(int id) { return *keyframes[static_cast<std::size_t>(id)]; }
   const Keyframe& keyframe(int id) const { return *keyframes[static_cast<std::size_t>(id)]; }

@@ -35,7 +35,7 @@ MapBundle MakeBundle(const Map& map, const std::vector<int>& moving, const std::
     if (!keyframe.from_previous || keyframe.previous < 0) continue;
     const int from = index[static_cast<std::size_t>(keyframe.previous)];
     if (from < 0 || (made.bundle.poses[i].fixed && made.bundle.poses[static_cast<std::size_t>(from)].fixed)) continue;
-    RelativePose motion = *keyframe.from_previous;
+    RelativeMotion motion = *keyframe.from_previous;
     motion.from = from;
     motion.to = static_cast<int>(i);
     made.bundle.motions.push_back(motion);

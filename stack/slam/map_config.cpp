@@ -34,6 +34,30 @@ void Describe(base::Description& d, AdjustConfig& c) {
           {.unit = "rad", .meaning = "1 sigma of the odometry's vertical", .min = 1e-5, .max = 1});
 }
 
+void Describe(base::Description& d, LoopConfig& c) {
+  d.Field("enabled", c.enabled, {.meaning = "look for places that are known again"});
+  d.Field("filter", c.filter, {.meaning = "which candidates to believe"});
+  d.Field("geometry", c.geometry, {.meaning = "when two views show the same"});
+  d.Field("recent", c.recent, {.meaning = "keyframes before the newest that are no news", .min = 1, .max = 1000});
+  d.Field("looks", c.looks, {.meaning = "views of a place that are compared with the newest", .min = 1, .max = 100});
+  d.Field("least", c.least,
+          {.meaning = "landmarks of the known place that the newest keyframe must show", .min = 6, .max = 1000});
+  d.Field("agree", c.agree, {.meaning = "keyframes that must say the same", .min = 1, .max = 100});
+  d.Field("agree_within", c.agree_within, {.meaning = "keyframes, among which they are", .min = 1, .max = 1000});
+  d.Field("agree_position", c.agree_position, {.unit = "m", .meaning = "that is the same", .min = 0.001, .max = 100});
+  d.Field("agree_angle", c.agree_angle, {.unit = "rad", .meaning = "that is the same", .min = 1e-4, .max = 1});
+  d.Field("tilt", c.tilt, {.unit = "rad", .meaning = "by which the verticals may differ", .min = 1e-4, .max = 1});
+  d.Field("drift_position", c.drift_position,
+          {.unit = "m", .meaning = "by which a loop may move the newest keyframe", .min = 0, .max = 1000});
+  d.Field("drift_share", c.drift_share, {.meaning = "besides, share of the way since then", .min = 0, .max = 1});
+  d.Field("drift_angle", c.drift_angle,
+          {.unit = "rad", .meaning = "by which a loop may turn the newest keyframe", .min = 0, .max = 4});
+  d.Field("drift_angle_rate", c.drift_angle_rate, {.unit = "rad/s", .meaning = "besides", .min = 0, .max = 1});
+  d.Field("tie_position", c.tie_position,
+          {.unit = "m", .meaning = "1 sigma of neighbours while a loop is spread", .min = 1e-4, .max = 10});
+  d.Field("tie_angle", c.tie_angle, {.unit = "rad", .meaning = "likewise", .min = 1e-5, .max = 1});
+}
+
 void Describe(base::Description& d, MapConfig& c) {
   d.Field("enabled", c.enabled, {.meaning = "keep a map; off: odometry alone"});
   d.Field("latency", c.latency, {.unit = "s", .meaning = "until what a keyframe taught is known", .min = 0, .max = 10});
@@ -41,6 +65,7 @@ void Describe(base::Description& d, MapConfig& c) {
   d.Field("farthest", c.farthest, {.unit = "m", .meaning = "where a landmark may begin", .min = 1, .max = 10000});
   d.Field("search", c.search, {.meaning = "finding landmarks again"});
   d.Field("adjust", c.adjust, {.meaning = "fitting keyframes and landmarks together"});
+  d.Field("loop", c.loop, {.meaning = "places that are known again"});
   d.Field("redundant", c.redundant,
           {.meaning = "share of a keyframe's landmarks that three others see: it goes", .min = 0.1, .max = 2});
 }

@@ -2,6 +2,7 @@
 
 #include "base/describe.h"
 #include "stack/features/orb_config.h"
+#include "stack/slam/loop_config.h"
 
 namespace alula::stack::slam {
 
@@ -41,6 +42,7 @@ struct MapConfig {
   double farthest = 100.0;                    // m: where a landmark may begin
   SearchConfig search;
   AdjustConfig adjust;
+  LoopConfig loop;
   double redundant = 0.9;  // share of its landmarks that three others see: such a keyframe goes
 };
 

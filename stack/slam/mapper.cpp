@@ -21,15 +21,7 @@ constexpr double kNearby = 4.0;          // m, of keyframes that may see the sam
 constexpr double kSameView = 0.3;        // cosine of the angle between their optical axes
 constexpr int kProbation = 3;            // keyframes after which a landmark must have been seen again
 
-/// The turn about the vertical and the shift that carry the odometry's pose into the map's; tilt is the odometry's.
-Transform UprightOffset(const Transform& X_MB, const Transform& X_OB) {
-  const base::Quat q = base::FromYaw(base::Yaw(X_MB.q * X_OB.q.conjugate()));
-  return {q, X_MB.p - q * X_OB.p};
-}
-
-Vec3 OpticalAxis(const Map& map, const Keyframe& keyframe) {
-  return keyframe.X_MB.q * (map.eyes.X_BL.q * Vec3::UnitZ());
-}
+Vec3 OpticalAxis(const Map& map, const Transform& X_MB) { return X_MB.q * (map.eyes.X_BL.q * Vec3::UnitZ()); }
 
 std::vector<base::Vec2> PixelsOf(const PlaceView& view) {
   std::vector<base::Vec2> pixels;
@@ -50,8 +42,8 @@ std::vector<std::optional<base::Vec2>> SeenByRightEye(const PlaceView& view, con
 }
 
 /// One motion after the other.
-RelativePose Compose(const RelativePose& a, const RelativePose& b) {
-  RelativePose both;
+RelativeMotion Compose(const RelativeMotion& a, const RelativeMotion& b) {
+  RelativeMotion both;
   both.X_FT = a.X_FT * b.X_FT;
   both.sigma = (a.sigma.cwiseAbs2() + b.sigma.cwiseAbs2()).cwiseSqrt();
   return both;
@@ -59,7 +51,10 @@ RelativePose Compose(const RelativePose& a, const RelativePose& b) {
 
 }  // namespace
 
-Mapper::Mapper(const features::StereoRig& rig, const MapConfig& config) : rig_(rig), config_(config) {}
+Mapper::Mapper(const features::StereoRig& rig, const MapConfig& config, std::shared_ptr<const Vocabulary> vocabulary)
+    : rig_(rig), config_(config) {
+  if (vocabulary != nullptr && config.loop.enabled) places_.emplace(config.loop, std::move(vocabulary));
+}
 
 KeyframeReport Mapper::Add(KeyframeInput input) {
   KeyframeReport report;
@@ -73,21 +68,31 @@ KeyframeReport Mapper::Add(KeyframeInput input) {
   map_.eyes = input.eyes;
   keyframe.up_B = input.X_OB.q.conjugate() * Vec3::UnitZ();
   keyframe.view = std::move(input.view);
+  keyframe.view.up_C = map_.eyes.X_BL.q.conjugate() * keyframe.up_B;
   keyframe.right = SeenByRightEye(keyframe.view, rig_.X_LR);
   keyframe.landmarks.assign(keyframe.view.points.size(), -1);
   TakeMotions(input, keyframe);
+  const bool goes_on = keyframe.from_previous.has_value();
+  if (goes_on) {
+    keyframe.part = map_.keyframe(keyframe.previous).part;
+  } else {
+    keyframe.part = static_cast<int>(map_.anchors.size());
+    map_.anchors.push_back(keyframe.id);
+    claims_.clear();
+  }
   map_.keyframes.push_back(std::move(owned));
   dropped_.emplace_back();
-  if (newest_ >= 0) report.matched = Recognise(keyframe, report);
+  if (goes_on) report.matched = Recognise(keyframe, report);
   CreateLandmarks(keyframe, report);
   if (report.matched > 0) FuseDuplicates(keyframe);
   newest_ = keyframe.id;
   const int every = config_.adjust.whole_every;
   if (every > 0 && keyframe.id % every == every - 1) {
-    AdjustWhole(config_.adjust.whole_iterations, 1e-3);
+    AdjustPart(keyframe.part, config_.adjust.whole_iterations, 1e-3);
   } else {
     AdjustAround(keyframe.id);
   }
+  if (places_) LookForLoop(keyframe, report);
   X_MO_ = report.X_MO = UprightOffset(keyframe.X_MB, keyframe.X_OB);
   DropPoorLandmarks(keyframe.id);
   DropRedundantKeyframes(keyframe.id);
@@ -103,7 +108,7 @@ void Mapper::TakeMotions(const KeyframeInput& input, Keyframe& keyframe) {
   for (auto it = input.window.rbegin(); it != input.window.rend() && from_id >= 0; ++it) {
     const Keyframe& from = map_.keyframe(from_id);
     if (from.stamp != it->stamp) return;  // one of them was dropped
-    RelativePose motion;
+    RelativeMotion motion;
     motion.X_FT = it->X_OB.Inverse() * X_OT;
     const double way = motion.X_FT.p.norm(), time = (to->stamp - from.stamp).Seconds();
     motion.sigma << Vec3::Constant(a.motion_position + a.motion_drift * way),
@@ -118,17 +123,19 @@ void Mapper::TakeMotions(const KeyframeInput& input, Keyframe& keyframe) {
   }
 }
 
-std::vector<int> Mapper::LocalLandmarks(const Keyframe& keyframe) const {
-  std::vector<int> around{newest_};
-  for (const Covisible& c : CovisibleWith(map_, newest_, kLeastShared)) {
+std::vector<int> Mapper::LandmarksAround(int centre, const Transform& X_MB) const {
+  std::vector<int> around{centre};
+  for (const Covisible& c : CovisibleWith(map_, centre, kLeastShared)) {
     if (around.size() < kLookAround / 2) around.push_back(c.keyframe);
   }
   std::vector<std::pair<double, int>> near;
-  const Vec3 axis = OpticalAxis(map_, keyframe);
+  const int part = map_.keyframe(centre).part;
+  const Vec3 axis = OpticalAxis(map_, X_MB);
   for (const auto& other : map_.keyframes) {
-    if (!other || other->id == keyframe.id) continue;
-    const double distance = (other->X_MB.p - keyframe.X_MB.p).norm();
-    if (distance < kNearby && OpticalAxis(map_, *other).dot(axis) > kSameView) near.emplace_back(distance, other->id);
+    if (!other || other->part != part) continue;
+    const double distance = (other->X_MB.p - X_MB.p).norm();
+    if (distance < kNearby && OpticalAxis(map_, other->X_MB).dot(axis) > kSameView)
+      near.emplace_back(distance, other->id);
   }
   std::sort(near.begin(), near.end());
   for (const auto& [distance, id] : near) {
@@ -145,7 +152,7 @@ std::vector<int> Mapper::LocalLandmarks(const Keyframe& keyframe) const {
 }
 
 int Mapper::Recognise(Keyframe& keyframe, KeyframeReport& report) {
-  const std::vector<int> landmarks = LocalLandmarks(keyframe);
+  const std::vector<int> landmarks = LandmarksAround(newest_, keyframe.X_MB);
   report.looked_for = static_cast<int>(landmarks.size());
   const features::KeypointGrid grid(PixelsOf(keyframe.view), rig_.left.width, rig_.left.height);
   std::vector<LandmarkMatch> matches;
@@ -153,7 +160,7 @@ int Mapper::Recognise(Keyframe& keyframe, KeyframeReport& report) {
   for (const double radius : {config_.search.radius, config_.search.near_radius}) {
     matches = FindLandmarks(map_, keyframe, X_MB, landmarks, grid, rig_.left, radius, config_);
     if (static_cast<int>(matches.size()) < config_.search.least) return 0;
-    const std::optional<Transform> refined = Refine(keyframe, X_MB, matches);
+    const std::optional<Transform> refined = Refine(keyframe, X_MB, matches, true);
     if (!refined) return 0;
     X_MB = *refined;
   }
@@ -166,15 +173,15 @@ int Mapper::Recognise(Keyframe& keyframe, KeyframeReport& report) {
 }
 
 std::optional<Transform> Mapper::Refine(const Keyframe& keyframe, const Transform& X_MB,
-                                        std::vector<LandmarkMatch>& matches) const {
+                                        std::vector<LandmarkMatch>& matches, bool with_motion) const {
   Bundle bundle;
   bundle.eyes = map_.eyes;
   bundle.poses.push_back({X_MB, false});
   bundle.verticals.push_back({0, keyframe.up_B, config_.adjust.vertical});
-  if (keyframe.from_previous) {
+  if (with_motion && keyframe.from_previous) {
     const Keyframe& before = map_.keyframe(keyframe.previous);
     bundle.poses.push_back({before.X_MB, true});
-    RelativePose motion = *keyframe.from_previous;
+    RelativeMotion motion = *keyframe.from_previous;
     motion.from = 1;
     motion.to = 0;
     bundle.motions.push_back(motion);
@@ -218,7 +225,7 @@ void Mapper::CreateLandmarks(Keyframe& keyframe, KeyframeReport& report) {
 /// What was taken for new may be known from elsewhere: a landmark of the neighbourhood that should be seen where this
 /// keyframe sees another one, and fits there, is the same.
 void Mapper::FuseDuplicates(Keyframe& keyframe) {
-  std::vector<int> others = LocalLandmarks(keyframe);
+  std::vector<int> others = LandmarksAround(keyframe.previous, keyframe.X_MB);
   std::erase_if(others, [&](int l) {
     const auto& sights = map_.landmark(l).sights;
     return !sights.empty() && sights.back().keyframe == keyframe.id;
@@ -257,7 +264,9 @@ void Mapper::AdjustAround(int id) {
   }
   std::sort(watchers.begin(), watchers.end());
   std::set<int> holding;
-  if (moving.contains(first_)) holding.insert(first_);  // the map hangs on its first keyframe
+  // A part of the map hangs on its first keyframe.
+  const int anchor = map_.anchors[static_cast<std::size_t>(map_.keyframe(id).part)];
+  if (moving.contains(anchor)) holding.insert(anchor);
   for (const auto& [shared, k] : watchers) {
     if (static_cast<int>(holding.size()) < config.fixed) holding.insert(k);
   }
@@ -290,8 +299,9 @@ void Mapper::DropRedundantKeyframes(int id) {
   for (const Covisible& c : CovisibleWith(map_, id, kLeastShared)) neighbours.push_back(c.keyframe);
   std::sort(neighbours.rbegin(), neighbours.rend());
   for (const int neighbour : neighbours) {
-    if (neighbour == first_ || recent.contains(neighbour)) continue;
     const Keyframe& keyframe = map_.keyframe(neighbour);
+    const int anchor = map_.anchors[static_cast<std::size_t>(keyframe.part)];
+    if (neighbour == anchor || recent.contains(neighbour)) continue;
     int all = 0, redundant = 0;
     for (const int l : keyframe.landmarks) {
       if (l < 0) continue;
@@ -318,8 +328,9 @@ void Mapper::Drop(int id) {
       other->from_previous.reset();
     }
   }
-  if (heir < 0) heir = newest_;
+  if (heir < 0) heir = map_.anchors[static_cast<std::size_t>(keyframe.part)];
   dropped_[static_cast<std::size_t>(id)] = Dropped{heir, map_.keyframe(heir).X_MB.Inverse() * keyframe.X_MB};
+  if (places_) places_->Forget(id);
   map_.keyframes[static_cast<std::size_t>(id)].reset();
 }
 
@@ -334,17 +345,20 @@ Transform Mapper::PoseOf(int id) const {
 }
 
 void Mapper::Finish() {
-  for (int round = 0; round < 2; ++round) AdjustWhole(config_.adjust.final_iterations, 1e-5);
+  for (std::size_t part = 0; part < map_.anchors.size(); ++part) {
+    if (map_.anchors[part] < 0) continue;
+    for (int round = 0; round < 2; ++round) AdjustPart(static_cast<int>(part), config_.adjust.final_iterations, 1e-5);
+  }
 }
 
-void Mapper::AdjustWhole(int iterations, double tolerance) {
-  std::vector<int> all;
+void Mapper::AdjustPart(int part, int iterations, double tolerance) {
+  const int anchor = map_.anchors[static_cast<std::size_t>(part)];
+  std::vector<int> moving;
   for (const auto& keyframe : map_.keyframes) {
-    if (keyframe) all.push_back(keyframe->id);
+    if (keyframe && keyframe->part == part && keyframe->id != anchor) moving.push_back(keyframe->id);
   }
-  if (all.size() < 2) return;
-  all.erase(std::find(all.begin(), all.end(), first_));
-  MapBundle whole = MakeBundle(map_, all, {first_}, rig_.left, config_);
+  if (moving.empty()) return;
+  MapBundle whole = MakeBundle(map_, moving, {anchor}, rig_.left, config_);
   Adjust(whole.bundle, {iterations, config_.adjust.huber, tolerance});
   TakeOver(whole, map_, config_.adjust.gate);
 }

@@ -5,6 +5,7 @@
 
 #include "base/processor_clock.h"
 #include "stack/slam/mapper.h"
+#include "stack/slam/vocabulary.h"
 
 namespace alula::stack::slam {
 
@@ -22,7 +23,7 @@ class Slam::Impl {
         rig_(features::MakeRig(calibration)),
         X_BL_(calibration.cameras.at(static_cast<std::size_t>((*calibration.stereo)[0])).X_BC),
         odometry_(calibration, config.odometry, X_MB_start),
-        mapper_(rig_, config.map) {}
+        mapper_(rig_, config.map, config.map.loop.enabled ? SharedVocabulary() : nullptr) {}
 
   SlamResult Process(const estimation::FrameInput& frame) {
     SlamResult result;
@@ -39,6 +40,8 @@ class Slam::Impl {
       taught_.pop_front();
     }
     result.X_MO = X_MO_;
+    result.loops = loops_;
+    result.joins = joins_;
     poses_.push_back({result.odometry.state.stamp, last_keyframe_, X_OB_keyframe_.Inverse() * X_OB});
     return result;
   }
@@ -87,6 +90,8 @@ class Slam::Impl {
     input.view = ViewOfStereoPair(rig_, frame.left, frame.right, config_.map.orb);
     X_OB_keyframe_ = input.X_OB;
     const KeyframeReport report = mapper_.Add(std::move(input));
+    loops_ += report.loop && !report.joined ? 1 : 0;
+    joins_ += report.joined ? 1 : 0;
     taught_.push_back({frame.stamp + base::Seconds(config_.map.latency), report.X_MO});
     last_keyframe_ = report.keyframe;
   }
@@ -99,6 +104,7 @@ class Slam::Impl {
   std::deque<Taught> taught_;
   Transform X_MO_;
   int last_keyframe_ = -1;
+  int loops_ = 0, joins_ = 0;
   Transform X_OB_keyframe_;
   static constexpr std::size_t kShutters = 32;
   std::deque<estimation::KeyframePose> shutters_;  // of newest keyframes: body at the exposure in the body at the stamp

@@ -15,6 +15,8 @@ namespace alula::stack::slam {
 struct SlamResult {
   estimation::FrameResult odometry;
   base::Transform X_MO;  // from the odometry frame to the map, as known now
+  int loops = 0;         // closed so far
+  int joins = 0;         // of parts of the map, so far
   double map_ms = 0.0;   // processor time of the map's part, for reports alone
 };
 

@@ -114,4 +114,11 @@ Vocabulary LoadVocabulary(const std::filesystem::path& file) {
   return VocabularyFromBytes(bytes, file.string());
 }
 
+std::filesystem::path VocabularyPath() { return std::filesystem::path(ALULA_SLAM_ASSETS) / "vocabulary.bin"; }
+
+std::shared_ptr<const Vocabulary> SharedVocabulary() {
+  static const auto shared = std::make_shared<const Vocabulary>(LoadVocabulary(VocabularyPath()));
+  return shared;
+}
+
 }  // namespace alula::stack::slam

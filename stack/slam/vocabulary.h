@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -44,5 +45,10 @@ std::vector<std::uint8_t> ToBytes(const Vocabulary& vocabulary);
 Vocabulary VocabularyFromBytes(std::span<const std::uint8_t> bytes, const std::string& name);
 /// Reads a file. Throws base::InputError where it is missing or broken.
 Vocabulary LoadVocabulary(const std::filesystem::path& file);
+
+/// The vocabulary that Alula ships, and where it is.
+std::filesystem::path VocabularyPath();
+/// Read once in a process. Throws as LoadVocabulary does.
+std::shared_ptr<const Vocabulary> SharedVocabulary();
 
 }  // namespace alula::stack::slam

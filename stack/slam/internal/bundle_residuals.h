@@ -28,8 +28,8 @@ bool SightResidual(const View& view, const Sight& sight, const base::Vec3& p_M, 
 Mat36 ByPose(const base::Mat3& by_L, const View& view, const base::Transform& X_MB, const base::Vec3& p_M);
 
 /// r = (R_FM (p_T − p_F) − z, Log(Z⁻¹ R_FT)) / σ, and its derivatives by both tangents.
-base::Vec6 MotionResidual(const base::Transform& X_MF, const base::Transform& X_MT, const RelativePose& motion);
-void MotionJacobians(const base::Transform& X_MF, const base::Transform& X_MT, const RelativePose& motion,
+base::Vec6 MotionResidual(const base::Transform& X_MF, const base::Transform& X_MT, const RelativeMotion& motion);
+void MotionJacobians(const base::Transform& X_MF, const base::Transform& X_MT, const RelativeMotion& motion,
                      base::Mat6& by_F, base::Mat6& by_T);
 
 /// r = (R_BM e_z − up_B) / σ, and its derivative by δθ.

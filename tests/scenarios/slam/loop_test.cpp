@@ -37,7 +37,7 @@ struct Outcome {
 /// Turns once at a first place, once at a second, and once more near the first: the whole way from picture to relative
 /// pose.
 Outcome ThreeLaps(const std::string& world, std::uint64_t seed) {
-  const stack::slam::Vocabulary vocabulary = stack::slam::LoadVocabulary(VocabularyPath());
+  const stack::slam::Vocabulary vocabulary = stack::slam::LoadVocabulary(stack::slam::VocabularyPath());
   Photographer photographer(world, seed);
   const auto stations = gallery::RandomViewpoints(photographer.world(), 2, seed);
   std::vector<Keyframe> keyframes;

@@ -27,7 +27,7 @@ double Median(std::vector<double> values) {
 class RenderedPlaces : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    vocabulary_ = new stack::slam::Vocabulary(stack::slam::LoadVocabulary(VocabularyPath()));
+    vocabulary_ = new stack::slam::Vocabulary(stack::slam::LoadVocabulary(stack::slam::VocabularyPath()));
     visits_ = new std::vector<Keyframe>;
     returns_ = new std::vector<Keyframe>;
     for (const char* name : {"vicon_room", "machine_hall", "office", "courtyard", "forest"}) {

@@ -52,7 +52,7 @@ Bundle Scene() {
     bundle.points.push_back(point);
   }
   for (int i = 1; i < 6; ++i) {
-    RelativePose motion;
+    RelativeMotion motion;
     motion.from = i - 1;
     motion.to = i;
     motion.X_FT =
@@ -173,7 +173,7 @@ TEST(BundleResiduals, JacobiansOfASightAgreeWithDifferences) {
 TEST(BundleResiduals, JacobiansOfAMotionAndTheVerticalAgreeWithDifferences) {
   const Bundle scene = Scene();
   const Transform F = scene.poses[1].X_MB, T = Moved(scene.poses[2].X_MB, Vec6::Constant(0.05));
-  const RelativePose& motion = scene.motions[1];
+  const RelativeMotion& motion = scene.motions[1];
   Mat6 by_F, by_T;
   MotionJacobians(F, T, motion, by_F, by_T);
   ExpectJacobian([&](const Eigen::VectorXd& d) -> Eigen::VectorXd { return MotionResidual(Moved(F, d), T, motion); },

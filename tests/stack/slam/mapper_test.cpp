@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "stack/slam/vocabulary.h"
 
 namespace alula::stack::slam {
 namespace {
@@ -83,7 +84,7 @@ struct Flown {
 };
 Flown FlyTwoRounds(const MapConfig& config) {
   const Room room(700);
-  Flown flown{Mapper({Camera(), Camera(), *StereoEyes().X_LR}, config), {}};
+  Flown flown{Mapper({Camera(), Camera(), *StereoEyes().X_LR}, config, nullptr), {}};
   base::RandomStream noise(2, "test/noise");
   for (int i = 0; i < 120; ++i) {
     KeyframeInput input;
@@ -148,6 +149,118 @@ TEST(Mapper, TheSameBitsTwice) {
     EXPECT_EQ(a.reports[i].X_MO.p, b.reports[i].X_MO.p);
     EXPECT_EQ(a.reports[i].matched, b.reports[i].matched);
   }
+}
+
+/// Keyframes as they come from an odometry, which may lose its way.
+class Flight {
+ public:
+  explicit Flight(const MapConfig& config)
+      : mapper({Camera(), Camera(), *StereoEyes().X_LR}, config, SharedVocabulary()) {}
+
+  /// `X_OW`: where the odometry has its origin by now; another one than before means that it has lost its way.
+  KeyframeReport Take(const Room& room, const Transform& X_WB, const Transform& X_OW) {
+    if ((X_OW.p - X_OW_.p).norm() > 0.0) window_.clear();
+    X_OW_ = X_OW;
+    KeyframeInput input;
+    input.seq = static_cast<std::uint32_t>(taken_);
+    input.stamp = Time{} + base::Milliseconds(300 * taken_++);
+    input.X_OB = X_OW * X_WB;
+    input.eyes = StereoEyes();
+    input.view = room.SeenFrom(X_WB, noise_);
+    input.window = window_;
+    window_.push_back({input.stamp, input.X_OB});
+    return mapper.Add(std::move(input));
+  }
+
+  Mapper mapper;
+
+ private:
+  base::RandomStream noise_{2, "test/noise"};
+  Transform X_OW_;
+  std::vector<estimation::KeyframePose> window_;
+  int taken_ = 0;
+};
+
+TEST(Mapper, WhoHasLostTheWayIsFoundAgainByWhatItSees) {
+  const Room room(700);
+  Flight flight({});
+  for (int i = 0; i < 60; ++i) flight.Take(room, TruthAt(i), {});
+  const Transform X_OW{base::FromYaw(0.6), Vec3(3, -2, 0.4)};
+  int joined_at = -1;
+  for (int i = 0; i < 40; ++i) {
+    const KeyframeReport report = flight.Take(room, TruthAt(20 + i), X_OW);
+    if (report.joined && joined_at < 0) joined_at = i;
+    const Transform X_MB = report.X_MO * X_OW * TruthAt(20 + i);
+    if (joined_at < 0) {
+      EXPECT_GT((X_MB.p - TruthAt(20 + i).p).norm(), 1.0);
+    } else {
+      EXPECT_LT((X_MB.p - TruthAt(20 + i).p).norm(), 0.02) << i;
+    }
+  }
+  EXPECT_GE(joined_at, 1);  // one keyframe's word is not enough
+  EXPECT_LE(joined_at, 6);
+  for (int k = 0; k < 100; ++k) {
+    const Vec3 truth = TruthAt(k < 60 ? k : k - 40).p;
+    EXPECT_LT((flight.mapper.PoseOf(k).p - truth).norm(), 0.03) << k;
+  }
+}
+
+/// Half round a room, then half round another one next door that looks the same. How many loops it took that for.
+int LoopsNextDoor(const MapConfig& config, Vec3& end) {
+  const Room room(700);
+  const Transform next_door{base::Quat::Identity(), Vec3(14, 0, 0)};
+  Room other = room;
+  for (Room::Spot& spot : other.spots) spot.p_W += next_door.p;
+  Flight flight(config);
+  int loops = 0;
+  for (int i = 0; i < 40; ++i) flight.Take(room, TruthAt(i), {});
+  for (int i = 0; i < 40; ++i) loops += flight.Take(other, next_door * TruthAt(i), {}).loop ? 1 : 0;
+  end = flight.mapper.PoseOf(79).p - next_door * TruthAt(39).p;
+  return loops;
+}
+
+TEST(Mapper, ARoomThatLooksTheSameIsNotTheSame) {
+  Vec3 error;
+  EXPECT_EQ(LoopsNextDoor({}, error), 0);
+  EXPECT_LT(error.norm(), 0.1);
+  MapConfig credulous;
+  credulous.loop.drift_position = 20.0;
+  EXPECT_GT(LoopsNextDoor(credulous, error), 0);  // so it is the odometry's word that refuses
+}
+
+TEST(SpreadLoop, TakesTheErrorBackAlongTheWay) {
+  // Forty keyframes whose motions are a little off in heading and height, which the loop can tell; what it cannot tell,
+  // such as a shift ahead at each step of a round, stays.
+  const RelativeMotion off{0, 0, {base::FromYaw(0.002), Vec3(0, 0, 0.004)}, base::Vec6::Constant(0.01)};
+  Map map;
+  map.eyes = StereoEyes();
+  map.anchors = {0};
+  for (int i = 0; i <= 40; ++i) {
+    auto keyframe = std::make_unique<Keyframe>();
+    keyframe->id = i;
+    keyframe->previous = i - 1;
+    keyframe->X_MB = i == 0 ? TruthAt(0) : map.keyframe(i - 1).X_MB * TruthAt(i - 1).Inverse() * TruthAt(i) * off.X_FT;
+    if (i > 0) {
+      keyframe->from_previous = off;
+      keyframe->from_previous->X_FT = TruthAt(i - 1).Inverse() * TruthAt(i) * off.X_FT;
+    }
+    PlacePoint point;
+    point.scale = 1.0;
+    keyframe->view.points.push_back(point);
+    keyframe->landmarks.assign(1, -1);
+    map.keyframes.push_back(std::move(keyframe));
+  }
+  const int landmark = AddLandmark(map, 40, 0, map.keyframe(40).X_MB * Vec3(2, 0, 0));
+  double before = 0.0, after = 0.0;
+  for (int i = 0; i <= 40; ++i) before = std::max(before, (map.keyframe(i).X_MB.p - TruthAt(i).p).norm());
+  SpreadLoop(map, {0, 40, TruthAt(0).Inverse() * TruthAt(40)}, {});
+  for (int i = 0; i <= 40; ++i) {
+    after = std::max(after, (map.keyframe(i).X_MB.p - TruthAt(i).p).norm());
+    EXPECT_LT((map.keyframe(i).X_MB.q.conjugate() * Vec3::UnitZ() - Vec3::UnitZ()).norm(), 1e-3);  // upright
+  }
+  EXPECT_GT(before, 0.15);
+  EXPECT_LT(after, 0.25 * before);
+  EXPECT_LT((map.landmark(landmark).p_M - map.keyframe(40).X_MB * Vec3(2, 0, 0)).norm(), 1e-9);
 }
 
 }  // namespace
