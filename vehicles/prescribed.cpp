@@ -1,6 +1,8 @@
 #include "vehicles/prescribed.h"
 
+#include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/error.h"
@@ -32,6 +34,12 @@ class PrescribedVehicle final : public VehicleModel {
   PrescribedVehicle(const PrescribedConfig& config, const std::string& name)
       : config_(config), body_(LayOutQuadrotor(config.body).body) {
     body_.prescribed = true;
+    const QuadrotorLayout layout = LayOutQuadrotor(config.body);
+    for (std::size_t i = 0; i < rotors_.size(); ++i) {
+      rotors_[i].spin = layout.rotors[i].spin;
+      rotors_[i].radius = 0.5 * config.body.rotor.diameter;
+      rotors_[i].p_BR = layout.rotors[i].p_BR;
+    }
     if (const auto* file = std::get_if<FileMotion>(&config.motion)) {
       if (!std::holds_alternative<ThrustAttitude>(config.attitude)) {
         throw base::InputError(name + ": attitude: a motion of type file brings its own; leave the key out");
@@ -43,7 +51,21 @@ class PrescribedVehicle final : public VehicleModel {
   }
 
   const VehicleBody& body() const override { return body_; }
-  Wrench Step(const BodyState&, const ActuatorCommand&, const Vec3&, base::Duration) override { return {}; }
+  Wrench Step(const BodyState& state, const ActuatorCommand&, const Vec3&, base::Duration dt) override {
+    if (config_.rotors_turn) {
+      const Vec3 a_W = v_before_ ? Vec3((state.v_WB - *v_before_) / dt.Seconds()) : Vec3::Zero();
+      v_before_ = state.v_WB;
+      const double thrust = config_.body.mass * (a_W + Vec3(0, 0, base::kGravity)).norm() / kRotors;
+      for (RotorState& rotor : rotors_) {
+        rotor.thrust = thrust;
+        rotor.speed = std::sqrt(thrust / ThrustConstant(config_.body.rotor, config_.body.air_density));
+      }
+    }
+    return {};
+  }
+  std::span<const RotorState> Rotors() const override {
+    return config_.rotors_turn ? std::span<const RotorState>(rotors_) : std::span<const RotorState>();
+  }
 
   BodyState Prescribed(base::Time t) const override {
     const double since = t.Seconds() - config_.standstill;
@@ -72,6 +94,8 @@ class PrescribedVehicle final : public VehicleModel {
  private:
   PrescribedConfig config_;
   VehicleBody body_;
+  std::array<RotorState, kRotors> rotors_{};
+  std::optional<Vec3> v_before_;
   std::optional<PrescribedMotion> formula_;  // one of the two
   std::optional<FittedMotion> recorded_;
 };
@@ -140,6 +164,8 @@ void Describe(base::Description& d, PrescribedConfig& c) {
   d.OneOf("motion", c.motion, {.meaning = "where it goes", .choices = {"path", "sines", "file"}});
   d.OneOf("attitude", c.attitude, {.meaning = "how it tilts (a file has its own)", .choices = {"thrust", "sines"}});
   d.Field("body", c.body, {.meaning = "the quadrotor that it looks like"});
+  d.Field("rotors_turn", c.rotors_turn,
+          {.meaning = "rotors turn as the motion would want it, and shake the inertial unit (its errors.vibration)"});
 }
 
 std::unique_ptr<VehicleModel> MakePrescribed(const PrescribedConfig& config, std::string name) {

@@ -79,6 +79,8 @@ struct PrescribedConfig {
   MotionConfig motion;
   std::variant<ThrustAttitude, SineAttitude> attitude;
   QuadrotorConfig body;  // what it looks like
+  /// Its rotors turn as fast as this motion would want them to: what shakes the inertial unit in flight does so here.
+  bool rotors_turn = false;
 };
 void Describe(base::Description& d, PrescribedConfig& c);
 

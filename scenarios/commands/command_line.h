@@ -70,6 +70,8 @@ struct CommandLine {
   int drops = 200;                  // check landing: on safe cells
   bool diff = false;
   std::vector<std::string> variants;  // slam: NAME:KEY=VALUE,…
+  std::filesystem::path load_map;     // slam: a map from before; empty: none
+  bool save_map = false;              // slam
   bool quiet = false;
   std::filesystem::path json;   // file of figures or verdicts; "-": standard output; empty: none
   std::filesystem::path junit;  // likewise

@@ -208,6 +208,9 @@ SlamVerb AddSlam(CLI::App& app, CommandLine& line, Raw& raw) {
   AddSet(*verb, raw);
   verb->add_option("--seeds", line.sweep.seeds, "of scenarios, one flight each: 1-3 or 1,5 (default: the scenario's)");
   AddFlight(*verb, line, raw);
+  verb->add_flag("--save-map", line.save_map, "write the map of each estimator beside its trajectories: map.alula");
+  verb->add_option("--load-map", line.load_map, "a map from before, in which every estimator finds itself again")
+      ->type_name("FILE");
   verb->add_option("--out", raw.out, "folder of the trajectories (default: runs/slam/<name>)");
   verb->add_flag("--quiet", line.quiet, "no progress");
   AddJson(*verb, raw, "all figures");

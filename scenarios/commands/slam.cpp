@@ -17,6 +17,7 @@
 #include "scenarios/slam/train_vocabulary.h"
 #include "scenarios/slam/variants.h"
 #include "scenarios/write_file.h"
+#include "stack/slam/map_file.h"
 
 namespace alula::scenarios::commands {
 namespace fs = std::filesystem;
@@ -27,11 +28,21 @@ fs::path FolderOf(const CommandLine& line, const std::string& name, std::uint64_
   return all / std::to_string(seed);
 }
 
+std::vector<slam::Variant> Variants(const fs::path& scenario, const CommandLine& line, std::uint64_t seed) {
+  std::vector<slam::Variant> variants = slam::VariantsOf(scenario, line.overrides, line.variants, seed);
+  if (!line.load_map.empty()) stack::slam::LoadMap(line.load_map);  // says at once what is wrong with it
+  for (slam::Variant& variant : variants) {
+    variant.known_map = line.load_map;
+    variant.keeps_map = line.save_map;
+  }
+  return variants;
+}
+
 /// One flight, rendered once, in a process of its own; its report comes back as text.
 int WatchFlight(const fs::path& file, std::uint64_t seed, const CommandLine& line, nlohmann::ordered_json& all) {
   const Scenario scenario = LoadScenario(file, line.overrides, seed);
   const auto feed = std::make_shared<slam::FlightFeed>();
-  feed->variants = slam::VariantsOf(file, line.overrides, line.variants, seed);
+  feed->variants = Variants(file, line, seed);
   RunOptions options = OptionsOf(line);
   options.stack = slam::FeedEstimators(feed);
   options.spectators.push_back(slam::NoteTruth(feed));
@@ -57,7 +68,7 @@ int WatchFlight(const fs::path& file, std::uint64_t seed, const CommandLine& lin
 int WatchRecording(const fs::path& folder, const CommandLine& line, nlohmann::ordered_json& all) {
   const dataset::Recording recording = dataset::OpenRecording(folder);
   const std::string name = fs::canonical(folder).filename().string();
-  const std::vector<slam::Variant> variants = slam::VariantsOf({}, line.overrides, line.variants, 1);
+  const std::vector<slam::Variant> variants = Variants({}, line, 1);
   Progress progress(name, slam::SpanOf(recording), line.talks());
   std::vector<slam::EstimatorResult> results =
       slam::FeedRecording(recording, variants, [&progress](base::Time time) { progress.Show(time); });

@@ -4,12 +4,16 @@
 #include <utility>
 
 #include "base/processor_clock.h"
+#include "stack/slam/map_file.h"
 
 namespace alula::scenarios::slam {
 
 EstimatorRun::EstimatorRun(const Variant& variant, const stack::Calibration& calibration,
                            const base::Transform& X_MB_start)
-    : slam_(std::make_unique<stack::slam::Slam>(calibration, variant.config, X_MB_start)) {
+    : keeps_map_(variant.keeps_map),
+      slam_(std::make_unique<stack::slam::Slam>(
+          calibration, variant.config, X_MB_start,
+          variant.known_map.empty() ? stack::slam::Map{} : stack::slam::LoadMap(variant.known_map))) {
   result_.name = variant.name;
 }
 
@@ -34,6 +38,7 @@ EstimatorResult EstimatorRun::Finish() {
   const double begin = base::ProcessorMs();
   result_.finished = slam_->FinalTrajectory();
   result_.finish_ms = base::ProcessorMs() - begin;
+  if (keeps_map_) result_.map = stack::slam::ToBytes(slam_->map());
   return std::move(result_);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -13,6 +15,8 @@ namespace alula::scenarios::slam {
 struct Variant {
   std::string name;
   stack::slam::SlamConfig config;
+  std::filesystem::path known_map{};  // a map from before that it begins with; empty: none
+  bool keeps_map = false;             // hands its map over at the end
 };
 
 /// What one estimator made of a recording or flight.
@@ -24,13 +28,15 @@ struct EstimatorResult {
   std::vector<double> frame_ms;             // processor time of each, work at keyframes apart
   std::vector<double> keyframe_ms;          // of the map's work at each keyframe
   double finish_ms = 0.0;                   // of the work at the end
+  std::vector<std::uint8_t> map;            // as stack/slam/map_file.h writes it, where the variant keeps it
   std::uint32_t resets = 0;
-  int loops = 0;  // closed by the map
-  int joins = 0;  // of its parts
+  int loops = 0;                   // closed by the map
+  int joins = 0;                   // of its parts
   std::vector<std::string> notes;  // in the order in which they first appeared
 };
 
-/// An estimator that is being fed. Reads the thread's processor clock, for the report alone.
+/// An estimator that is being fed. Throws base::InputError for a known map that cannot be read. Reads the thread's
+/// processor clock, for the report alone.
 class EstimatorRun {
  public:
   EstimatorRun(const Variant& variant, const stack::Calibration& calibration, const base::Transform& X_MB_start);
@@ -39,6 +45,7 @@ class EstimatorRun {
 
  private:
   EstimatorResult result_;
+  bool keeps_map_ = false;
   std::unique_ptr<stack::slam::Slam> slam_;
 };
 

@@ -54,6 +54,7 @@ void WriteFiles(const SlamReport& report, const fs::path& folder) {
     fs::create_directories(out.PathOf(result.name));
     out.Write(result.name + "/estimate.tum", Tum(result.online));
     out.Write(result.name + "/estimate_final.tum", Tum(result.finished));
+    if (!result.map.empty()) out.Write(result.name + "/map.alula", std::string(result.map.begin(), result.map.end()));
   }
   out.Write("slam.json", ToJson(report).dump(2) + "\n");
   out.Commit();

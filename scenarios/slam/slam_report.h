@@ -21,7 +21,8 @@ struct SlamReport {
 SlamReport Judge(const std::string& name, std::uint64_t seed, std::vector<EstimatorResult> results,
                  std::vector<base::StampedPose> truth);
 
-/// truth.tum, and of each estimator estimate.tum and estimate_final.tum in a folder of its name; slam.json.
+/// truth.tum, and of each estimator estimate.tum and estimate_final.tum in a folder of its name, and map.alula
+/// where it keeps its map; slam.json.
 void WriteFiles(const SlamReport& report, const std::filesystem::path& folder);
 
 nlohmann::ordered_json ToJson(const SlamReport& report);

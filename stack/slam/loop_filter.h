@@ -39,9 +39,10 @@ struct LoopHypothesis {
 ///   mean of
 ///                its own height above the middle, (s − μ)/σ, and of the greatest among its neighbours: that it is
 ///                there the best of a place says for all of it, where it is each says for itself.
-/// μ and σ are the middle and the spread of the scores of all keyframes, of which loops are a few outliers: median and 1.4826 ×
-/// median deviation. (Labbé and Michaud weigh by (s − σ)/μ against 1 + μ/σ with mean and standard deviation: there one
-/// true match among n keyframes raises σ as 1/√n, and the more keyframes there are the surer every place is new.)
+/// μ and σ are the middle and the spread of the scores of all keyframes, of which loops are a few outliers: median
+/// and 1.4826 × median deviation. (Labbé and Michaud weigh by (s − σ)/μ against 1 + μ/σ with mean and standard
+/// deviation: there one true match among n keyframes raises σ as 1/√n, and the more keyframes there are the surer every
+/// place is new.)
 class LoopFilter {
  public:
   explicit LoopFilter(const LoopFilterConfig& config) : config_(config) {}

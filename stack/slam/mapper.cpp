@@ -51,9 +51,12 @@ RelativeMotion Compose(const RelativeMotion& a, const RelativeMotion& b) {
 
 }  // namespace
 
-Mapper::Mapper(const features::StereoRig& rig, const MapConfig& config, std::shared_ptr<const Vocabulary> vocabulary)
-    : rig_(rig), config_(config) {
-  if (vocabulary != nullptr && config.loop.enabled) places_.emplace(config.loop, std::move(vocabulary));
+Mapper::Mapper(const features::StereoRig& rig, const MapConfig& config, std::shared_ptr<const Vocabulary> vocabulary,
+               Map known)
+    : rig_(rig), config_(config), map_(std::move(known)), dropped_(map_.keyframes.size()) {
+  if (vocabulary == nullptr || !config.loop.enabled) return;
+  places_.emplace(config.loop, std::move(vocabulary));
+  places_->Remember(map_);
 }
 
 KeyframeReport Mapper::Add(KeyframeInput input) {

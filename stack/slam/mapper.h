@@ -50,7 +50,9 @@ class Mapper {
  public:
   /// `rig`: nominal, with which the views' depths are found. `vocabulary` may be null: then no place is known again but
   /// by where the map believes to be.
-  Mapper(const features::StereoRig& rig, const MapConfig& config, std::shared_ptr<const Vocabulary> vocabulary);
+  /// `known`: a map from before; where the vehicle is in it shows once a place of it is known again.
+  Mapper(const features::StereoRig& rig, const MapConfig& config, std::shared_ptr<const Vocabulary> vocabulary,
+         Map known = {});
 
   KeyframeReport Add(KeyframeInput input);
 

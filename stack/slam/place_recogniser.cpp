@@ -86,6 +86,14 @@ std::vector<int> PlaceRecogniser::ToLookAt(const Map& map, int id, const std::ve
   return chosen;
 }
 
+void PlaceRecogniser::Remember(const Map& map) {
+  for (const auto& keyframe : map.keyframes) {
+    if (!keyframe) continue;
+    database_.Add(static_cast<KeyframeId>(keyframe->id), vocabulary_->WordsOf(keyframe->view));
+    filter_.Add(static_cast<KeyframeId>(keyframe->id), NeighboursOf(map, keyframe->id));
+  }
+}
+
 void PlaceRecogniser::Forget(int keyframe) {
   database_.Remove(static_cast<KeyframeId>(keyframe));
   filter_.Remove(static_cast<KeyframeId>(keyframe));

@@ -30,6 +30,8 @@ class PlaceRecogniser {
   /// Looks for the place of keyframe `id`, the newest of the map, and remembers it. Keyframes that see the same
   /// landmarks, and the last ones of its own part, are no news. The same calls give the same answers.
   std::optional<KnownPlace> Look(const Map& map, int id);
+  /// Keyframes of a map from before.
+  void Remember(const Map& map);
   void Forget(int keyframe);
 
  private:

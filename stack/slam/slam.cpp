@@ -2,6 +2,7 @@
 
 #include <deque>
 #include <optional>
+#include <utility>
 
 #include "base/processor_clock.h"
 #include "stack/slam/mapper.h"
@@ -18,12 +19,12 @@ void Describe(base::Description& d, SlamConfig& c) {
 
 class Slam::Impl {
  public:
-  Impl(const Calibration& calibration, const SlamConfig& config, const Transform& X_MB_start)
+  Impl(const Calibration& calibration, const SlamConfig& config, const Transform& X_MB_start, Map known)
       : config_(config),
         rig_(features::MakeRig(calibration)),
         X_BL_(calibration.cameras.at(static_cast<std::size_t>((*calibration.stereo)[0])).X_BC),
         odometry_(calibration, config.odometry, X_MB_start),
-        mapper_(rig_, config.map, config.map.loop.enabled ? SharedVocabulary() : nullptr) {}
+        mapper_(rig_, config.map, config.map.loop.enabled ? SharedVocabulary() : nullptr, std::move(known)) {}
 
   SlamResult Process(const estimation::FrameInput& frame) {
     SlamResult result;
@@ -45,6 +46,8 @@ class Slam::Impl {
     poses_.push_back({result.odometry.state.stamp, last_keyframe_, X_OB_keyframe_.Inverse() * X_OB});
     return result;
   }
+
+  const Map& map() const { return mapper_.map(); }
 
   std::vector<base::StampedPose> FinalTrajectory() {
     if (config_.map.enabled) mapper_.Finish();
@@ -111,10 +114,11 @@ class Slam::Impl {
   std::vector<Recorded> poses_;
 };
 
-Slam::Slam(const Calibration& calibration, const SlamConfig& config, const Transform& X_MB_start)
-    : impl_(std::make_unique<Impl>(calibration, config, X_MB_start)) {}
+Slam::Slam(const Calibration& calibration, const SlamConfig& config, const Transform& X_MB_start, Map known)
+    : impl_(std::make_unique<Impl>(calibration, config, X_MB_start, std::move(known))) {}
 Slam::~Slam() = default;
 SlamResult Slam::Process(const estimation::FrameInput& frame) { return impl_->Process(frame); }
+const Map& Slam::map() const { return impl_->map(); }
 std::vector<base::StampedPose> Slam::FinalTrajectory() { return impl_->FinalTrajectory(); }
 
 }  // namespace alula::stack::slam

@@ -7,6 +7,7 @@
 #include "base/trajectory_file.h"
 #include "stack/estimation/odometry.h"
 #include "stack/interface/calibration.h"
+#include "stack/slam/map.h"
 #include "stack/slam/slam_config.h"
 
 namespace alula::stack::slam {
@@ -24,12 +25,16 @@ struct SlamResult {
 /// jobs. Deterministic.
 class Slam {
  public:
-  /// `X_MB_start`: position and heading of the body at the start. Throws base::InputError where the calibration does
-  /// not hold what the estimator needs.
-  Slam(const Calibration& calibration, const SlamConfig& config, const base::Transform& X_MB_start);
+  /// `X_MB_start`: position and heading of the body at the start. `known`: a map from before; from when a place of it
+  /// is known again on, poses are in its frame. Throws base::InputError where the calibration does not hold what the
+  /// estimator needs.
+  Slam(const Calibration& calibration, const SlamConfig& config, const base::Transform& X_MB_start, Map known = {});
   ~Slam();
 
   SlamResult Process(const estimation::FrameInput& frame);
+
+  /// As it is now; also while the way is lost.
+  const Map& map() const;
 
   /// X_MB of every frame that had one, after all optimisation. To be asked for once, at the end.
   std::vector<base::StampedPose> FinalTrajectory();

@@ -49,6 +49,31 @@ TEST(Prescribed, VelocityAndRatesAreTheDerivativesOfThePose) {
   }
 }
 
+TEST(Prescribed, RotorsTurnAsTheMotionWantsThem) {
+  PrescribedConfig config{.standstill = 2, .motion = Sines(), .attitude = ThrustAttitude{}, .body = {}};
+  EXPECT_TRUE(MakePrescribed(config, "vehicle0")->Rotors().empty());
+  config.rotors_turn = true;
+  const auto vehicle = MakePrescribed(config, "vehicle0");
+  const base::Duration h = base::Milliseconds(1);
+  double least = 1e9, most = 0.0;
+  for (base::Time t{}; t < *vehicle->PrescribedEnd(); t += h) {
+    vehicle->Step(vehicle->Prescribed(t), {}, Vec3::Zero(), h);
+    ASSERT_EQ(vehicle->Rotors().size(), 4U);
+    double lift = 0.0;
+    for (const RotorState& rotor : vehicle->Rotors()) lift += rotor.thrust;
+    if (t.Seconds() < 1.9) {
+      EXPECT_NEAR(lift, config.body.mass * base::kGravity, 1e-9);
+    }
+    least = std::min(least, lift);
+    most = std::max(most, lift);
+    const RotorState& rotor = vehicle->Rotors()[0];
+    EXPECT_NEAR(ThrustConstant(config.body.rotor, config.body.air_density) * rotor.speed * rotor.speed, rotor.thrust,
+                1e-9);
+  }
+  EXPECT_LT(least, 0.95 * config.body.mass * base::kGravity);
+  EXPECT_GT(most, 1.1 * config.body.mass * base::kGravity);
+}
+
 TEST(Prescribed, MotionIsFourTimesSmooth) {
   // Acceleration and jerk as stated are the derivatives of velocity and acceleration, and the jerk has no corners:
   // its second difference over h shrinks with h².

@@ -24,6 +24,16 @@ void PlantTrees(World& world, const ForestConfig& config, const Land& land, cons
   }
 }
 
+void TakeTrail(Plot& plot, const ForestConfig& config) {
+  constexpr double kStep = 0.5;  // m
+  for (std::size_t i = 1; i < config.trail.size(); ++i) {
+    const Vec2 from = config.trail[i - 1].head<2>(), to = config.trail[i].head<2>();
+    const int steps = static_cast<int>(std::ceil((to - from).norm() / kStep));
+    for (int k = 0; k <= steps; ++k)
+      plot.Take(from + (to - from) * (steps > 0 ? static_cast<double>(k) / steps : 0.0), 0.5 * config.trail_width);
+  }
+}
+
 }  // namespace
 
 void Describe(base::Description& d, ForestConfig& c) {
@@ -42,6 +52,9 @@ void Describe(base::Description& d, ForestConfig& c) {
   d.Field("boulders", c.boulders, {.meaning = "boulders, at most", .min = 0, .max = 60});
   d.Field("deadwood", c.deadwood, {.meaning = "logs and stumps, at most", .min = 0, .max = 60});
   d.Field("shrubs", c.shrubs, {.meaning = "shrubs, at most", .min = 0, .max = 120});
+  d.Field("trail", c.trail,
+          {.unit = "m", .meaning = "corners of a way on which nothing stands, whatever their height"});
+  d.Field("trail_width", c.trail_width, {.unit = "m", .meaning = "of it, between stems", .min = 1.0, .max = 20.0});
   d.Field("weather", c.weather, {.meaning = "hour, sun, clouds, fog and wind"});
 }
 
@@ -66,6 +79,7 @@ World MakeWorld(const ForestConfig& config, std::uint64_t seed) {
   plot.Take(start, 3.0);
   plot.Take(start + 3.5 * (goal - start).normalized(), 1.5);
   plot.Take(goal, 2.0);
+  TakeTrail(plot, config);
   const int conifers = std::clamp(static_cast<int>(std::lround(config.conifers * kModels)), 0, kModels);
   const Wood wood = MakeWood(world, config.tree_height_min, config.tree_height_max, kModels - conifers, conifers, seed);
   PlantTrees(world, config, land, wood, plot, seed);

@@ -2,7 +2,9 @@
 
 #include <cstdint>
 #include <string_view>
+#include <vector>
 
+#include "base/frames.h"
 #include "worlds/weather.h"
 
 namespace alula::worlds {
@@ -21,6 +23,8 @@ struct ForestConfig {
   int boulders = 8;
   int deadwood = 10;  // logs and stumps
   int shrubs = 24;
+  std::vector<base::Vec3> trail;  // m: corners of a way on which nothing stands; their height does not matter
+  double trail_width = 4.0;       // m
   WeatherConfig weather;
 };
 void Describe(base::Description& d, ForestConfig& c);

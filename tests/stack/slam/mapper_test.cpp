@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "stack/slam/map_file.h"
 #include "stack/slam/vocabulary.h"
 
 namespace alula::stack::slam {
@@ -154,8 +155,8 @@ TEST(Mapper, TheSameBitsTwice) {
 /// Keyframes as they come from an odometry, which may lose its way.
 class Flight {
  public:
-  explicit Flight(const MapConfig& config)
-      : mapper({Camera(), Camera(), *StereoEyes().X_LR}, config, SharedVocabulary()) {}
+  explicit Flight(const MapConfig& config, Map known = {})
+      : mapper({Camera(), Camera(), *StereoEyes().X_LR}, config, SharedVocabulary(), std::move(known)) {}
 
   /// `X_OW`: where the odometry has its origin by now; another one than before means that it has lost its way.
   KeyframeReport Take(const Room& room, const Transform& X_WB, const Transform& X_OW) {
@@ -203,6 +204,17 @@ TEST(Mapper, WhoHasLostTheWayIsFoundAgainByWhatItSees) {
     const Vec3 truth = TruthAt(k < 60 ? k : k - 40).p;
     EXPECT_LT((flight.mapper.PoseOf(k).p - truth).norm(), 0.03) << k;
   }
+}
+
+TEST(Mapper, AMapFromBeforeIsGoneOnWith) {
+  const Room room(700);
+  Flight yesterday({});
+  for (int i = 0; i < 60; ++i) yesterday.Take(room, TruthAt(i), {});
+  Flight today({}, MapFromBytes(ToBytes(yesterday.mapper.map()), "test"));
+  const Transform X_OW{base::FromYaw(-0.4), Vec3(1, 2, 0)};
+  KeyframeReport last;
+  for (int i = 0; i < 20; ++i) last = today.Take(room, TruthAt(30 + i), X_OW);
+  EXPECT_LT(((last.X_MO * X_OW * TruthAt(49)).p - TruthAt(49).p).norm(), 0.02);
 }
 
 /// Half round a room, then half round another one next door that looks the same. How many loops it took that for.
