@@ -50,10 +50,20 @@ void NormalEquations::Allocate() {
 }
 
 void NormalEquations::Add(const LinearPrior& prior) {
-  const VectorXd r = prior.Residual();
-  const MatrixXd JtJ = prior.J.transpose() * prior.J;
-  const VectorXd Jtr = prior.J.transpose() * r;
+  // d (x ⊟ x0) / dδ at the point about which this system is linearised; one where that is the prior's own.
+  MatrixXd J = prior.J;
   int from_i = 0;
+  for (const LinearBlock& block : prior.blocks) {
+    const double* x0 = blocks_[static_cast<std::size_t>(Find(block.x))].x0.data();
+    if (block.kind == BlockKind::kPose && !std::equal(x0, x0 + kPoseSize, block.x0.begin())) {
+      const base::Vec3 turn = PoseDifference(x0, block.x0.data()).tail<3>();
+      J.middleCols<3>(from_i + 3) = (J.middleCols<3>(from_i + 3) * base::RightJacobianInverse(turn)).eval();
+    }
+    from_i += TangentSize(block.kind);
+  }
+  const MatrixXd JtJ = J.transpose() * J;
+  const VectorXd Jtr = J.transpose() * prior.Residual();
+  from_i = 0;
   for (const LinearBlock& bi : prior.blocks) {
     const int ni = TangentSize(bi.kind), ci = Column(Find(bi.x));
     b_.segment(ci, ni) += Jtr.segment(from_i, ni);

@@ -10,6 +10,7 @@ void Describe(base::Description& d, StaticInitConfig& c) {
 }
 
 void Describe(base::Description& d, WindowConfig& c) {
+  d.Field("solver", c.solver, {.meaning = "who solves it", .choices = {"schur", "ceres"}});
   d.Field("frames", c.frames, {.meaning = "states in the window", .min = 4, .max = 40});
   d.Field("recent_frames", c.recent_frames,
           {.meaning = "newest frames kept whether keyframes or not", .min = 1, .max = 20});
@@ -31,6 +32,8 @@ void Describe(base::Description& d, WindowConfig& c) {
   d.Field("time_offset_sigma", c.time_offset_sigma,
           {.unit = "s", .meaning = "camera clock against IMU clock", .min = 1e-6, .max = 0.5});
   d.Field("refine_calibration", c.refine_calibration, {.meaning = "estimate those three while flying"});
+  d.Field("first_estimates", c.first_estimates,
+          {.meaning = "keep the prior's Jacobians where a state first entered it"});
   d.Check("recent_frames", [&c] {
     return c.recent_frames + 2 <= c.frames ? "" : "recent_frames must leave two of the window's frames to keyframes";
   });

@@ -12,8 +12,12 @@ struct StaticInitConfig {
   int min_features = 20;         // fewer say nothing about motion
 };
 
+/// Who solves the window: our own elimination of landmarks, or Ceres, its reference.
+enum class WindowSolver { kSchur, kCeres };
+
 /// The sliding window and its noise model.
 struct WindowConfig {
+  WindowSolver solver = WindowSolver::kSchur;
   int frames = 10;                        // states in the window; more: slower, hardly better
   int recent_frames = 3;                  // newest frames kept whether keyframes or not; they pin the velocity
   int iterations = 3;                     // of Levenberg–Marquardt a frame; a fourth changes no error
@@ -29,6 +33,7 @@ struct WindowConfig {
   double eye_rotation_sigma = 0.00035;    // rad (0.02°), of one eye against the other
   double time_offset_sigma = 0.002;       // s
   bool refine_calibration = true;         // estimate those three online
+  bool first_estimates = true;            // priors linearised where a state first entered one; off: for comparison
 };
 
 /// When a new keyframe is due.

@@ -1,13 +1,8 @@
-#include <ceres/loss_function.h>
-#include <ceres/problem.h>
-#include <ceres/solver.h>
-
 #include <algorithm>
 #include <array>
 
-#include "stack/estimation/internal/pose_manifold.h"
-#include "stack/estimation/internal/prior_factor.h"
 #include "stack/estimation/internal/sliding_window.h"
+#include "stack/estimation/internal/window_problem.h"
 
 namespace alula::stack::estimation {
 namespace {
@@ -15,33 +10,11 @@ namespace {
 /// Biases that far from where an interval was linearised make it worth integrating again.
 constexpr double kGyroShift = 0.01, kAccelShift = 0.2;  // rad/s, m/s²
 
+constexpr LandmarkKind kPoint;
+
 }  // namespace
 
-bool SlidingWindow::Solve() {
-  RefreshModels();
-  DropUnusable();
-  const std::vector<double> before(arena_.get(), arena_.get() + arena_size_);
-
-  ceres::Problem::Options ownership;
-  ownership.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  ownership.disable_all_safety_checks = true;
-  ceres::Problem problem(ownership);
-  PoseManifold manifold;
-  ceres::HuberLoss huber(config_.huber);
-  PriorFactor prior(prior_);
-  auto* ordering = new ceres::ParameterBlockOrdering;
-
-  problem.AddParameterBlock(rig_parameters(), kRigSize);
-  if (!config_.refine_calibration) problem.SetParameterBlockConstant(rig_parameters());
-  ordering->AddElementToGroup(rig_parameters(), 1);
-  for (const auto& frame : frames_) {
-    problem.AddParameterBlock(pose(frame->slot), kPoseSize, &manifold);
-    problem.AddParameterBlock(speed_bias(frame->slot), kSpeedBiasSize);
-    ordering->AddElementToGroup(pose(frame->slot), 1);
-    ordering->AddElementToGroup(speed_bias(frame->slot), 1);
-  }
+void SlidingWindow::RelineariseFactors() {
   for (std::size_t i = 1; i < frames_.size(); ++i) {
     Frame& frame = *frames_[i];
     const ImuState state = ReadState(*frames_[i - 1]);
@@ -51,37 +24,48 @@ bool SlidingWindow::Solve() {
       frame.factor.reset();
     }
     if (!frame.factor) frame.factor = std::make_unique<ImuFactor>(*frame.integral);
-    const std::size_t a = frames_[i - 1]->slot, b = frame.slot;
-    problem.AddResidualBlock(frame.factor.get(), nullptr, pose(a), speed_bias(a), pose(b), speed_bias(b));
   }
-  std::vector<double*> prior_blocks;
-  for (const LinearBlock& block : prior_.blocks) prior_blocks.push_back(block.x);
-  problem.AddResidualBlock(&prior, nullptr, prior_blocks);
+}
+
+WindowProblem SlidingWindow::Problem() const {
+  WindowProblem problem;
+  problem.huber = config_.huber;
+  problem.prior = &prior_;
+  problem.states.push_back({rig_parameters(), BlockKind::kRig, !config_.refine_calibration});
+  std::vector<int> pose_of(static_cast<std::size_t>(config_.frames) + 1);  // by slot
+  for (std::size_t i = 0; i < frames_.size(); ++i) {
+    const std::size_t slot = frames_[i]->slot;
+    const int at = static_cast<int>(problem.states.size());
+    pose_of[slot] = at;
+    problem.states.push_back({pose(slot), BlockKind::kPose});
+    problem.states.push_back({speed_bias(slot), BlockKind::kSpeedBias});
+    if (i > 0) problem.factors.push_back({frames_[i]->factor.get(), {at - 2, at - 1, at, at + 1}});
+  }
   for (const auto& [track, landmark] : landmarks_) {
     if (!UsesPoint(landmark)) continue;
-    double* p = point(landmark.slot);
-    problem.AddParameterBlock(p, kLandmarkSize);
-    ordering->AddElementToGroup(p, 0);
+    const int first = static_cast<int>(problem.sights.size());
     for (const Sight& sight : landmark.sights) {
-      for (ReprojectionFactor* factor : {sight.left.get(), sight.right.get()}) {
-        if (factor != nullptr) problem.AddResidualBlock(factor, &huber, pose(sight.slot), p, rig_parameters());
-      }
+      problem.sights.push_back({sight.left.get(), pose_of[sight.slot]});
+      if (sight.right) problem.sights.push_back({sight.right.get(), pose_of[sight.slot]});
     }
+    problem.landmarks.push_back(
+        {point(landmark.slot), &kPoint, first, static_cast<int>(problem.sights.size()) - first});
   }
+  return problem;
+}
 
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_SCHUR;
-  options.linear_solver_ordering.reset(ordering);
-  options.trust_region_strategy_type = ceres::LEVENBERG_MARQUARDT;
-  options.initial_trust_region_radius = 1e6;
-  options.max_num_iterations = config_.iterations;
-  options.function_tolerance = 1e-4;
-  options.num_threads = 1;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+bool SlidingWindow::Solve() {
+  RefreshModels();
+  DropUnusable();
+  const std::vector<double> before(arena_.get(), arena_.get() + arena_size_);
+
+  RelineariseFactors();
+  const SolverLimits limits{.iterations = config_.iterations};
+  const WindowProblem problem = Problem();
+  const SolverSummary summary =
+      config_.solver == WindowSolver::kSchur ? SolveWithSchur(problem, limits) : SolveWithCeres(problem, limits);
   const bool finite = std::all_of(arena_.get(), arena_.get() + arena_size_, [](double x) { return std::isfinite(x); });
-  if (!summary.IsSolutionUsable() || !finite) {
+  if (!summary.usable || !finite) {
     std::copy(before.begin(), before.end(), arena_.get());
     return false;
   }
@@ -116,6 +100,7 @@ void SlidingWindow::MarginaliseOldest() {
 
   // Columns: what leaves first; then the rig and all that the prior or the leaving factors touch.
   const auto linearisation_point = [this](const double* x) -> const double* {
+    if (!config_.first_estimates) return nullptr;
     for (const LinearBlock& block : prior_.blocks) {
       if (block.x == x) return block.x0.data();
     }

@@ -47,6 +47,7 @@ class NormalEquations {
   int AddBlock(double* x, BlockKind kind, const double* x0 = nullptr);
   int Find(const double* x) const;  // −1 where absent
 
+  /// A prior whose blocks are linearised elsewhere is turned to where they are linearised here.
   void Add(const LinearPrior& prior);
   /// A factor on the blocks of these indices, in the factor's order.
   void Add(const ceres::CostFunction& factor, std::span<const int> blocks);

@@ -12,6 +12,7 @@
 #include "stack/estimation/internal/imu_factor.h"
 #include "stack/estimation/internal/linear_system.h"
 #include "stack/estimation/internal/reprojection_factor.h"
+#include "stack/estimation/internal/window_problem.h"
 #include "stack/estimation/odometry.h"
 #include "stack/estimation/odometry_config.h"
 #include "stack/features/stereo_rig.h"
@@ -83,6 +84,8 @@ class SlidingWindow {
   base::Transform X_IC() const;
   std::size_t frames() const { return frames_.size(); }
   std::size_t landmarks() const { return landmarks_.size(); }
+  /// What Solve hands to a solver, where the parameters stand now; valid until the window changes.
+  WindowProblem Problem() const;
 
  private:
   struct Frame {
@@ -115,6 +118,7 @@ class SlidingWindow {
   void AddSightings(const Frame& frame, const std::vector<Sighting>& sightings);
   std::optional<std::size_t> NewPoint(const Frame& frame, const Sighting& sighting);
   void RefreshModels();
+  void RelineariseFactors();
   void DropUnusable();
   void ErasePoint(std::map<std::uint64_t, MapPoint>::iterator it);
   void EraseSights(std::size_t slot);
