@@ -61,7 +61,6 @@ class Photographer {
     return X_WC * base::Transform{base::Exp(turn), shift};
   }
 
- private:
   stack::Image Picture(const stack::CameraIntrinsics& camera, const base::Transform& X_WC) {
     render::Picture picture;
     render::View view;
@@ -75,7 +74,16 @@ class Photographer {
     image.bytes = std::make_shared<std::vector<std::uint8_t>>(std::move(picture.bytes));
     return image;
   }
+  render::DepthPicture Depth(const stack::CameraIntrinsics& camera, const base::Transform& X_WC) {
+    render::DepthPicture picture;
+    render::View view;
+    view.X_WC = X_WC;
+    view.intrinsics = camera;
+    renderer_->Depth(view, picture);
+    return picture;
+  }
 
+ private:
   std::string name_;
   base::RandomStream random_;
   std::shared_ptr<const worlds::World> world_;
