@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <ctime>
 #include <optional>
 
@@ -54,6 +55,14 @@ double Median(std::vector<double> values) {
 const ImuCalibration& ImuOf(const Calibration& calibration) {
   if (!calibration.imu) throw base::InputError("calibration: no IMU; stereo-inertial odometry needs one");
   return *calibration.imu;
+}
+
+/// Between neighbours, s.
+double LargestGap(const std::vector<TimedImu>& samples) {
+  double gap = 0.0;
+  for (std::size_t i = 1; i < samples.size(); ++i)
+    gap = std::max(gap, (samples[i].time - samples[i - 1].time).Seconds());
+  return gap;
 }
 
 Transform LeftCamera(const Calibration& calibration) {
@@ -158,6 +167,11 @@ class StereoInertialOdometry::Impl {
     if (samples_.back().time < input.stamp) result.note = "inertial samples end before the image";
     std::erase_if(samples_, [&](const TimedImu& s) { return s.time < input.stamp - base::Milliseconds(100); });
     const ImuState predicted = Propagate(before, samples);
+    if (const double gap = LargestGap(samples); gap > config_.failure.max_imu_gap) {
+      Follow(input, predicted, result);
+      Restart(predicted, samples.back(), gap, result);
+      return;
+    }
 
     std::vector<Track> tracks = Follow(input, predicted, result);
     const bool keyframe = KeyframeDue(tracks, predicted);
@@ -255,10 +269,11 @@ class StereoInertialOdometry::Impl {
   std::string Failure(bool solved, const ImuState& predicted, Time stamp, int inliers) {
     const FailureConfig& c = config_.failure;
     const ImuState state = window_.Newest();
+    const double blind = (stamp - last_seeing_).Seconds();
     if (inliers >= c.min_inliers) last_seeing_ = stamp;
     failed_solves_ = solved ? 0 : failed_solves_ + 1;
     if (failed_solves_ > 3) return "the solver failed repeatedly";
-    if ((stamp - last_seeing_).Seconds() > c.max_blind_time) return "blind for too long";
+    if (blind > c.max_blind_time) return "blind for too long";
     if (state.gyro_bias.norm() > c.max_gyro_bias) return "gyroscope bias out of range";
     if (state.accel_bias.norm() > c.max_accel_bias) return "accelerometer bias out of range";
     if (state.v_OI.norm() > c.max_speed) return "speed out of range";
@@ -277,6 +292,28 @@ class StereoInertialOdometry::Impl {
     sigmas.velocity = 0.5;
     sigmas.gyro_bias = 0.01;
     sigmas.accel_bias = 0.3;
+    BeginAnew(state, sigmas, why, result);
+  }
+
+  /// Starts anew after a stretch of which nothing is known: the vehicle may have been carried anywhere. Biases stay;
+  /// what is up says the accelerometer, roughly; heading and place are guesses.
+  void Restart(const ImuState& predicted, const TimedImu& newest, double gap, FrameResult& result) {
+    ImuState state = window_.Newest();
+    state.stamp = predicted.stamp;
+    state.v_OI.setZero();
+    const Vec3 up_I = (newest.accel - state.accel_bias).normalized();
+    state.X_OI.q = (base::Quat::FromTwoVectors(state.X_OI.q * up_I, Vec3::UnitZ()) * state.X_OI.q).normalized();
+    StartSigmas sigmas;
+    sigmas.tilt = 0.15;
+    sigmas.velocity = 2.0;
+    sigmas.gyro_bias = 0.003;
+    sigmas.accel_bias = 0.1;
+    char text[80];
+    std::snprintf(text, sizeof text, "inertial samples are missing for %.1f s", gap);
+    BeginAnew(state, sigmas, text, result);
+  }
+
+  void BeginAnew(const ImuState& state, const StartSigmas& sigmas, const std::string& why, FrameResult& result) {
     Begin(state, sigmas);
     failed_solves_ = 0;
     ++reset_counter_;

@@ -51,6 +51,8 @@ void Describe(base::Description& d, KeyframeConfig& c) {
 
 void Describe(base::Description& d, FailureConfig& c) {
   d.Field("max_blind_time", c.max_blind_time, {.unit = "s", .meaning = "with too few inliers", .min = 0.1});
+  d.Field("max_imu_gap", c.max_imu_gap,
+          {.unit = "s", .meaning = "between inertial samples; a longer one begins anew", .min = 0.005, .max = 10});
   d.Field("min_inliers", c.min_inliers, {.meaning = "fewer count as blind", .min = 0});
   d.Field("max_gyro_bias", c.max_gyro_bias, {.unit = "rad/s", .meaning = "beyond: failed", .min = 1e-3});
   d.Field("max_accel_bias", c.max_accel_bias, {.unit = "m/s^2", .meaning = "beyond: failed", .min = 1e-3});

@@ -9,7 +9,7 @@ namespace alula::stack::estimation {
 struct StaticInitConfig {
   double duration = 1.0;         // s of standstill that are averaged
   double max_median_flow = 0.5;  // px against the first image of the standstill; noise alone gives ≈ 0.1
-  int min_features = 20;         // fewer say nothing about motion
+  int min_features = 6;          // fewer say nothing about motion
 };
 
 /// Who solves the window: our own elimination of landmarks, or Ceres, its reference.
@@ -47,7 +47,8 @@ struct KeyframeConfig {
 
 /// Signs that the estimate has failed.
 struct FailureConfig {
-  double max_blind_time = 4.0;  // s with fewer than `min_inliers`
+  double max_blind_time = 4.0;  // s with fewer than `min_inliers`, or without images
+  double max_imu_gap = 0.1;     // s between inertial samples: what happened in between is not known
   int min_inliers = 8;
   double max_gyro_bias = 0.3;   // rad/s
   double max_accel_bias = 3.0;  // m/s²
