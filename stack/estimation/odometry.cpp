@@ -10,6 +10,9 @@
 #include "base/random.h"
 #include "stack/estimation/internal/sliding_window.h"
 #include "stack/estimation/static_initialiser.h"
+#include "stack/features/line_segments.h"
+#include "stack/features/line_stereo.h"
+#include "stack/features/line_tracks.h"
 #include "stack/features/stereo_tracker.h"
 #include "stack/features/translation_ransac.h"
 
@@ -79,7 +82,7 @@ class StereoInertialOdometry::Impl {
         imu_(ImuOf(calibration)),
         X_OB_start_(X_OB_start),
         tracker_(rig_, config.tracker),
-        window_(rig_, imu_.X_BI.Inverse() * LeftCamera(calibration), imu_.noise, config.window) {}
+        window_(rig_, imu_.X_BI.Inverse() * LeftCamera(calibration), imu_.noise, config.window, config.lines) {}
 
   FrameResult Process(const FrameInput& input) {
     ++timing_.frames;
@@ -180,15 +183,17 @@ class StereoInertialOdometry::Impl {
       tracks = tracker_.MakeReference();
       last_keyframe_ = input.stamp;
     }
+    const std::vector<LineSighting> lines = SeeLines(input, predicted, keyframe);
     bool solved = false;
     {
       const StageClock clock(timing_.solve);
-      window_.AddFrame(samples, Sightings(tracks), keyframe);
+      window_.AddFrame(samples, Sightings(tracks), keyframe, lines);
       solved = window_.Solve();
       tracker_.Drop(window_.RejectOutliers());
     }
     result.inliers = 0;
     for (const Track& t : tracks) result.inliers += window_.SeenInNewest(t.id) ? 1 : 0;
+    result.inliers += window_.UsedLines();
     if (keyframe) X_OC_reference_ = window_.Newest().X_OI * window_.X_IC();
     result.keyframe = keyframe;
     if (keyframe) {
@@ -238,6 +243,42 @@ class StereoInertialOdometry::Impl {
       return std::find(outliers.begin(), outliers.end(), t.id) != outliers.end();
     });
     return tracks;
+  }
+
+  /// Lines of the window where they are seen now; in a keyframe also those that are new, by both eyes.
+  std::vector<LineSighting> SeeLines(const FrameInput& input, const ImuState& predicted, bool keyframe) {
+    const LinesConfig& c = config_.lines;
+    if (!c.enabled) return {};
+    const StageClock clock(timing_.detect);
+    const std::vector<features::LineSegment> left = features::DetectLines(input.left, c.detect);
+    const Transform X_CO = (predicted.X_OI * window_.X_IC()).Inverse();
+    std::vector<features::ExpectedLine> expected;
+    for (const KnownLine& known : window_.Lines()) {
+      const auto segment = features::ExpectSegment(rig_.left, X_CO * known.ends_O[0], X_CO * known.ends_O[1]);
+      if (segment) expected.push_back({known.track, *segment});
+    }
+    std::vector<std::optional<LineSighting>> of_segment(left.size());
+    const auto seen_by = [](const CameraIntrinsics& camera, const features::LineSegment& s) {
+      return SeenSegment{Normalise(camera, s.a), Normalise(camera, s.b)};
+    };
+    for (const features::FollowedLine& followed : features::FollowLines(expected, left, c.track)) {
+      const auto i = static_cast<std::size_t>(followed.segment);
+      of_segment[i] = LineSighting{followed.id, seen_by(rig_.left, left[i]), {}, {}};
+    }
+    if (keyframe) {
+      const std::vector<features::LineSegment> right = features::DetectLines(input.right, c.detect);
+      for (const features::StereoLine& match :
+           features::MatchLines(rig_, input.left, input.right, left, right, c.stereo)) {
+        const auto i = static_cast<std::size_t>(match.left);
+        if (!of_segment[i]) of_segment[i] = LineSighting{++newest_line_, seen_by(rig_.left, left[i]), {}, match.ends_L};
+        of_segment[i]->right = seen_by(rig_.right, right[static_cast<std::size_t>(match.right)]);
+      }
+    }
+    std::vector<LineSighting> lines;
+    for (const std::optional<LineSighting>& one : of_segment) {
+      if (one) lines.push_back(*one);
+    }
+    return lines;
   }
 
   bool KeyframeDue(const std::vector<Track>& tracks, const ImuState& predicted) const {
@@ -378,6 +419,7 @@ class StereoInertialOdometry::Impl {
   Time last_keyframe_, last_seeing_;
   Transform X_OC_reference_;  // left camera of the tracker's reference pair
   Mat15 window_covariance_ = Mat15::Zero();
+  std::uint64_t newest_line_ = 0;
   int failed_solves_ = 0;
   std::uint32_t reset_counter_ = 0;
   OdometryTiming timing_;

@@ -39,6 +39,18 @@ void Describe(base::Description& d, WindowConfig& c) {
   });
 }
 
+void Describe(base::Description& d, LinesConfig& c) {
+  d.Field("enabled", c.enabled, {.meaning = "lines beside points"});
+  d.Field("detect", c.detect, {.meaning = "how segments are found"});
+  d.Field("stereo", c.stereo, {.meaning = "how they are found in the right image"});
+  d.Field("track", c.track, {.meaning = "how they are followed"});
+  d.Field("sigma", c.sigma, {.unit = "px", .meaning = "of an end across its segment", .min = 0.05, .max = 50});
+  d.Field(
+      "max_direction", c.max_direction,
+      {.unit = "rad", .meaning = "of its direction, 1 sigma: known worse, a line stays out", .min = 1e-3, .max = 3});
+  d.Field("max_place", c.max_place, {.unit = "m", .meaning = "of its place, likewise", .min = 1e-3, .max = 100});
+}
+
 void Describe(base::Description& d, KeyframeConfig& c) {
   d.Field("min_parallax", c.min_parallax,
           {.unit = "px", .meaning = "median, rotation removed, that makes a keyframe", .min = 0.5});
@@ -64,6 +76,7 @@ void Describe(base::Description& d, OdometryConfig& c) {
   d.Field("tracker", c.tracker, {.meaning = "how corners are found and followed"});
   d.Field("static_init", c.static_init, {.meaning = "how standstill is judged"});
   d.Field("window", c.window, {.meaning = "the sliding window and its noise model"});
+  d.Field("lines", c.lines, {.meaning = "straight edges beside corners"});
   d.Field("keyframe", c.keyframe, {.meaning = "when a keyframe is due"});
   d.Field("failure", c.failure, {.meaning = "signs that the estimate has failed"});
 }

@@ -1,6 +1,8 @@
 #pragma once
 
 #include "base/describe.h"
+#include "stack/features/line_stereo.h"
+#include "stack/features/line_tracks.h"
 #include "stack/features/stereo_tracker_config.h"
 
 namespace alula::stack::estimation {
@@ -36,6 +38,17 @@ struct WindowConfig {
   bool first_estimates = true;            // priors linearised where a state first entered one; off: for comparison
 };
 
+/// Lines beside points.
+struct LinesConfig {
+  bool enabled = false;
+  features::LineConfig detect;
+  features::LineStereoConfig stereo;
+  features::LineTrackConfig track;
+  double sigma = 1.5;           // px, of an end across its segment: distortion bends, merging shifts
+  double max_direction = 0.07;  // rad (4°): a line that is known worse does not enter the solver,
+  double max_place = 0.25;      // m       nor one whose place is
+};
+
 /// When a new keyframe is due.
 struct KeyframeConfig {
   double min_parallax = 12.0;     // px, median, rotation removed
@@ -60,12 +73,14 @@ struct OdometryConfig {
   features::StereoTrackerConfig tracker;
   StaticInitConfig static_init;
   WindowConfig window;
+  LinesConfig lines;
   KeyframeConfig keyframe;
   FailureConfig failure;
 };
 
 void Describe(base::Description& d, StaticInitConfig& c);
 void Describe(base::Description& d, WindowConfig& c);
+void Describe(base::Description& d, LinesConfig& c);
 void Describe(base::Description& d, KeyframeConfig& c);
 void Describe(base::Description& d, FailureConfig& c);
 void Describe(base::Description& d, OdometryConfig& c);

@@ -26,8 +26,15 @@ ImuState Propagate(const ImuState& from, const std::vector<TimedImu>& samples) {
 }
 
 SlidingWindow::SlidingWindow(const features::StereoRig& rig, const Transform& X_IC, const ImuNoise& noise,
-                             const WindowConfig& config)
-    : rig_(rig), X_IC_(X_IC), X_RL_(rig.X_LR.Inverse()), noise_(noise), config_(config), max_points_(4000) {
+                             const WindowConfig& config, const LinesConfig& lines)
+    : rig_(rig),
+      X_IC_(X_IC),
+      X_RL_(rig.X_LR.Inverse()),
+      noise_(noise),
+      config_(config),
+      lines_config_(lines),
+      max_points_(4000),
+      max_lines_(lines.enabled ? 1000 : 0) {
   noise_.gyro_noise *= config.imu_noise_scale;
   noise_.accelerometer_noise *= config.imu_noise_scale;
   MakeArena();
@@ -38,15 +45,19 @@ void SlidingWindow::MakeArena() {
   pose_begin_ = 8;
   speed_begin_ = pose_begin_ + 8 * frames;
   point_begin_ = speed_begin_ + 10 * frames;
-  arena_size_ = point_begin_ + 4 * max_points_;
+  line_begin_ = point_begin_ + 4 * max_points_;
+  arena_size_ = line_begin_ + 8 * max_lines_;
   arena_ = std::make_unique<double[]>(arena_size_);
   std::fill_n(arena_.get(), arena_size_, 0.0);
   for (std::size_t i = frames; i-- > 0;) free_slots_.push_back(i);
   for (std::size_t i = max_points_; i-- > 0;) free_points_.push_back(i);
+  for (std::size_t i = max_lines_; i-- > 0;) free_lines_.push_back(i);
 }
 
-void SlidingWindow::Start(const ImuState& state, const StartSigmas& s, const std::vector<Sighting>& sightings) {
+void SlidingWindow::Start(const ImuState& state, const StartSigmas& s, const std::vector<Sighting>& sightings,
+                          const std::vector<LineSighting>& lines) {
   while (!landmarks_.empty()) ErasePoint(landmarks_.begin());
+  while (!lines_.empty()) EraseLine(lines_.begin());
   for (const auto& frame : frames_) free_slots_.push_back(frame->slot);
   frames_.clear();
   const Frame& frame = AppendFrame(state.stamp, true, state.gyro_bias);
@@ -78,6 +89,7 @@ void SlidingWindow::Start(const ImuState& state, const StartSigmas& s, const std
   diagonal(18, 3, s.accel_bias);
   RefreshModels();
   AddSightings(frame, sightings);
+  AddLines(frame, lines);
 }
 
 SlidingWindow::Frame& SlidingWindow::AppendFrame(Time stamp, bool keyframe, const Vec3& gyro) {
@@ -95,7 +107,7 @@ SlidingWindow::Frame& SlidingWindow::AppendFrame(Time stamp, bool keyframe, cons
 }
 
 void SlidingWindow::AddFrame(const std::vector<TimedImu>& samples, const std::vector<Sighting>& sightings,
-                             bool keyframe) {
+                             bool keyframe, const std::vector<LineSighting>& lines) {
   const ImuState before = Newest();
   const ImuState predicted = Propagate(before, samples);
   Frame& frame = AppendFrame(predicted.stamp, keyframe, samples.back().gyro);
@@ -104,6 +116,7 @@ void SlidingWindow::AddFrame(const std::vector<TimedImu>& samples, const std::ve
   WriteState(frame.slot, predicted);
   RefreshModels();
   AddSightings(frame, sightings);
+  AddLines(frame, lines);
 }
 
 void SlidingWindow::WriteState(std::size_t slot, const ImuState& state) {
@@ -200,6 +213,7 @@ void SlidingWindow::ErasePoint(std::map<std::uint64_t, MapPoint>::iterator it) {
 }
 
 void SlidingWindow::EraseSights(std::size_t slot) {
+  EraseLineSights(slot);
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     const auto next = std::next(it);
     std::erase_if(it->second.sights, [slot](const Sight& s) { return s.slot == slot; });
@@ -231,6 +245,7 @@ void SlidingWindow::DropUnusable() {
 }
 
 std::vector<std::uint64_t> SlidingWindow::RejectOutliers() {
+  RejectLines();
   std::vector<std::uint64_t> dropped;
   const std::size_t newest = frames_.back()->slot;
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {

@@ -51,6 +51,7 @@ WindowProblem SlidingWindow::Problem() const {
     problem.landmarks.push_back(
         {point(landmark.slot), &kPoint, first, static_cast<int>(problem.sights.size()) - first});
   }
+  AddLinesTo(problem, pose_of);
   return problem;
 }
 
@@ -59,6 +60,7 @@ bool SlidingWindow::Solve() {
   DropUnusable();
   const std::vector<double> before(arena_.get(), arena_.get() + arena_size_);
 
+  JudgeLines();
   RelineariseFactors();
   const SolverLimits limits{.iterations = config_.iterations};
   const WindowProblem problem = Problem();

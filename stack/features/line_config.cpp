@@ -1,6 +1,7 @@
 #include "stack/features/line_config.h"
 
 #include "stack/features/line_stereo.h"
+#include "stack/features/line_tracks.h"
 
 namespace alula::stack::features {
 
@@ -33,6 +34,13 @@ void Describe(base::Description& d, LineStereoConfig& c) {
   d.Field("sparsity", c.sparsity, {.meaning = "weight of the L1 term", .min = 0, .max = 10});
   d.Field("min_weight", c.min_weight, {.meaning = "of the best candidate, of all", .min = 0, .max = 1});
   d.Field("patch", c.patch, {.unit = "px", .meaning = "side of the patches at the middles", .min = 3, .max = 41});
+}
+
+void Describe(base::Description& d, LineTrackConfig& c) {
+  d.Field("max_offset", c.max_offset,
+          {.unit = "px", .meaning = "from where a line is expected", .min = 0.5, .max = 200});
+  d.Field("max_angle", c.max_angle, {.unit = "rad", .meaning = "likewise", .min = 0.005, .max = 1});
+  d.Field("min_overlap", c.min_overlap, {.meaning = "of the shorter one, along the line", .min = 0, .max = 1});
 }
 
 }  // namespace alula::stack::features

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -10,6 +11,7 @@
 #include "base/time.h"
 #include "stack/estimation/imu_preintegration.h"
 #include "stack/estimation/internal/imu_factor.h"
+#include "stack/estimation/internal/line_factor.h"
 #include "stack/estimation/internal/linear_system.h"
 #include "stack/estimation/internal/reprojection_factor.h"
 #include "stack/estimation/internal/window_problem.h"
@@ -45,6 +47,21 @@ struct Sighting {
   std::optional<base::Vec2> right;
 };
 
+/// A line seen in one stereo pair, normalised coordinates.
+struct LineSighting {
+  std::uint64_t track = 0;
+  SeenSegment left;
+  std::optional<SeenSegment> right;
+  /// Its ends by stereo, m, left camera: with them it may become a landmark.
+  std::optional<std::array<base::Vec3, 2>> ends_L;
+};
+
+/// A line of the window that may be seen again: its ends as they were seen first, on the line as it is known now.
+struct KnownLine {
+  std::uint64_t track = 0;
+  std::array<base::Vec3, 2> ends_O{base::Vec3::Zero(), base::Vec3::Zero()};
+};
+
 /// The state, carried forward by the IMU from `from` to the end of `samples` (which begin at from.stamp).
 ImuState Propagate(const ImuState& from, const std::vector<TimedImu>& samples);
 
@@ -59,12 +76,14 @@ ImuState Propagate(const ImuState& from, const std::vector<TimedImu>& samples);
 class SlidingWindow {
  public:
   SlidingWindow(const features::StereoRig& rig, const base::Transform& X_IC, const ImuNoise& noise,
-                const WindowConfig& config);
+                const WindowConfig& config, const LinesConfig& lines = {});
 
   /// Forgets everything but the rig's refinement and begins with one state.
-  void Start(const ImuState& state, const StartSigmas& sigmas, const std::vector<Sighting>& sightings);
+  void Start(const ImuState& state, const StartSigmas& sigmas, const std::vector<Sighting>& sightings,
+             const std::vector<LineSighting>& lines = {});
   /// Adds a state at the end of `samples`, which begin at the newest state's stamp.
-  void AddFrame(const std::vector<TimedImu>& samples, const std::vector<Sighting>& sightings, bool keyframe);
+  void AddFrame(const std::vector<TimedImu>& samples, const std::vector<Sighting>& sightings, bool keyframe,
+                const std::vector<LineSighting>& lines = {});
   /// Returns false where the solver failed; the states are as before then.
   bool Solve();
   /// Drops sights that do not fit and returns the tracks that should be followed no more.
@@ -77,6 +96,9 @@ class SlidingWindow {
   /// Position of a track's landmark in O, m.
   std::optional<base::Vec3> Landmark(std::uint64_t track) const;
   bool SeenInNewest(std::uint64_t track) const;
+  std::vector<KnownLine> Lines() const;
+  /// Lines that the last solve made use of.
+  int UsedLines() const;
   /// Covariance of the newest state: (δp, δθ, δv, δb_g, δb_a), IMU frame.
   Mat15 NewestCovariance() const;
   CalibrationEstimate Rig() const;
@@ -106,11 +128,30 @@ class SlidingWindow {
     std::vector<Sight> sights;
   };
 
+  struct LineSight {
+    std::size_t slot = 0;
+    std::unique_ptr<LineFactor> left, right;
+  };
+  struct MapLine {
+    std::size_t slot = 0;
+    std::vector<LineSight> sights;
+    std::array<base::Vec3, 2> ends_O;
+    bool used = false;  // known well enough for the solver
+  };
+
   double* rig_parameters() const { return arena_.get(); }
   double* pose(std::size_t slot) const { return arena_.get() + pose_begin_ + 8 * slot; }
   double* speed_bias(std::size_t slot) const { return arena_.get() + speed_begin_ + 10 * slot; }
   double* point(std::size_t slot) const { return arena_.get() + point_begin_ + 4 * slot; }
 
+  double* line(std::size_t slot) const { return arena_.get() + line_begin_ + 8 * slot; }
+  void AddLines(const Frame& frame, const std::vector<LineSighting>& lines);
+  void AddLinesTo(WindowProblem& problem, const std::vector<int>& pose_of) const;
+  /// Drops sights that cannot be, and decides which lines the solver gets.
+  void JudgeLines();
+  void RejectLines();
+  void EraseLine(std::map<std::uint64_t, MapLine>::iterator it);
+  void EraseLineSights(std::size_t slot);
   void MakeArena();
   void WriteState(std::size_t slot, const ImuState& state);
   ImuState ReadState(const Frame& frame) const;
@@ -133,12 +174,14 @@ class SlidingWindow {
   base::Transform X_IC_, X_RL_;
   ImuNoise noise_;
   WindowConfig config_;
-  std::size_t max_points_;
-  std::size_t pose_begin_ = 0, speed_begin_ = 0, point_begin_ = 0, arena_size_ = 0;
+  LinesConfig lines_config_;
+  std::size_t max_points_, max_lines_;
+  std::size_t pose_begin_ = 0, speed_begin_ = 0, point_begin_ = 0, line_begin_ = 0, arena_size_ = 0;
   std::unique_ptr<double[]> arena_;  // all parameters in one piece: the solver orders blocks by their address
-  std::vector<std::size_t> free_slots_, free_points_;  // taken from the back
-  std::vector<std::unique_ptr<Frame>> frames_;         // oldest first
-  std::map<std::uint64_t, MapPoint> landmarks_;        // by track: a fixed order
+  std::vector<std::size_t> free_slots_, free_points_, free_lines_;  // taken from the back
+  std::vector<std::unique_ptr<Frame>> frames_;                      // oldest first
+  std::map<std::uint64_t, MapPoint> landmarks_;                     // by track: a fixed order
+  std::map<std::uint64_t, MapLine> lines_;
   LinearPrior prior_;
   std::uint64_t consumption_ = 0;  // counts followed landmarks of leaving keyframes
 };

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "stack/features/line_segments.h"
 #include "stack/features/line_stereo.h"
+#include "stack/features/line_tracks.h"
 
 namespace alula::stack::features {
 namespace {
@@ -148,6 +149,31 @@ TEST(LineStereo, EndsLieInSpaceWhereTheSquareIs) {
     }
     EXPECT_LT(nearest, 0.12);  // half a pixel of disparity at 3 m is 0.1 m
   }
+}
+
+TEST(LineTracks, ExpectedWhereItIsSeenAndCutOffAtTheEdge) {
+  const CameraIntrinsics camera{kWidth, kHeight, 420, 420, 320, 240, {}, DistortionModel::kRadialTangential};
+  const auto whole = ExpectSegment(camera, Vec3(-1, 0, 4), Vec3(1, 0.5, 4));
+  ASSERT_TRUE(whole);
+  EXPECT_LT((whole->a - Vec2(215, 240)).norm(), 1e-9);
+  EXPECT_LT((whole->b - Vec2(425, 292.5)).norm(), 1e-9);
+  const auto cut = ExpectSegment(camera, Vec3(0, 0, 4), Vec3(40, 0, 4));
+  ASSERT_TRUE(cut);
+  EXPECT_LT(cut->b.x(), kWidth);
+  EXPECT_FALSE(ExpectSegment(camera, Vec3(0, 0, -1), Vec3(1, 0, -2)));
+}
+
+TEST(LineTracks, FollowsTheNearestOfTheSameSense) {
+  const std::vector<ExpectedLine> expected = {{7, {{100, 100}, {200, 100}, 0}}, {9, {{100, 105}, {200, 105}, 0}}};
+  const std::vector<LineSegment> segments = {{{105, 104.5}, {190, 104.8}, 5},  // 9
+                                             {{200, 100}, {100, 100}, 5},      // the other way round
+                                             {{110, 101}, {150, 101}, 5},      // 7
+                                             {{300, 100}, {400, 100}, 5}};     // farther on
+  const auto followed = FollowLines(expected, segments, {});
+  ASSERT_EQ(followed.size(), 2U);
+  EXPECT_EQ(followed[0].id, 7U);
+  EXPECT_EQ(followed[0].segment, 2);
+  EXPECT_EQ(followed[1].segment, 0);
 }
 
 }  // namespace

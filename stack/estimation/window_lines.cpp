@@ -1,0 +1,137 @@
+#include <algorithm>
+
+#include "stack/estimation/internal/sliding_window.h"
+
+namespace alula::stack::estimation {
+
+using base::Transform;
+using base::Vec2;
+using base::Vec3;
+
+namespace {
+
+LineManifold line_manifold;  // without state
+const LandmarkKind kLine{kLineSize, kLineTangent, &line_manifold};
+
+constexpr double kGate = 3.5;  // σ of a sight's residual beyond which it is dropped: χ² with two at 99.8 %
+
+}  // namespace
+
+void SlidingWindow::AddLines(const Frame& frame, const std::vector<LineSighting>& lines) {
+  const double sigma = lines_config_.sigma / rig_.left.fx;
+  for (const LineSighting& seen : lines) {
+    auto it = lines_.find(seen.track);
+    if (it == lines_.end()) {
+      if (!seen.ends_L || free_lines_.empty()) continue;
+      const ImuState state = ReadState(frame);
+      const double t = rig_parameters()[5];
+      const Transform X_OL =
+          Transform{state.X_OI.q * base::Exp(frame.pair.w_I * t), state.X_OI.p + state.v_OI * t} * X_IC();
+      MapLine made;
+      made.slot = free_lines_.back();
+      free_lines_.pop_back();
+      made.ends_O = {X_OL * (*seen.ends_L)[0], X_OL * (*seen.ends_L)[1]};
+      SetLine(LineThrough(made.ends_O[0], made.ends_O[1]), line(made.slot));
+      it = lines_.emplace(seen.track, std::move(made)).first;
+    }
+    LineSight sight;
+    sight.slot = frame.slot;
+    sight.left = std::make_unique<LineFactor>(frame.pair, false, seen.left, sigma);
+    if (seen.right) sight.right = std::make_unique<LineFactor>(frame.pair, true, *seen.right, sigma);
+    it->second.sights.push_back(std::move(sight));
+  }
+}
+
+void SlidingWindow::JudgeLines() {
+  for (auto it = lines_.begin(); it != lines_.end();) {
+    const auto next = std::next(it);
+    MapLine& one = it->second;
+    const double* x = line(one.slot);
+    Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
+    Eigen::Matrix<double, 2, 5, Eigen::RowMajor> J;
+    double* out[3] = {nullptr, J.data(), nullptr};
+    std::erase_if(one.sights, [&](const LineSight& s) {
+      const double* at[3] = {pose(s.slot), x, rig_parameters()};
+      Vec2 r;
+      for (const LineFactor* factor : {s.left.get(), s.right.get()}) {
+        if (factor == nullptr) continue;
+        if (!factor->Evaluate(at, r.data(), out)) return true;
+        information += J.leftCols<4>().transpose() * J.leftCols<4>();
+      }
+      return false;
+    });
+    if (one.sights.empty()) {
+      EraseLine(it);
+    } else {
+      const auto spread = SpreadOf(x, information, 0.5 * (one.ends_O[0] + one.ends_O[1]));
+      one.used = one.sights.size() >= 2 && spread && spread->direction < lines_config_.max_direction &&
+                 spread->place < lines_config_.max_place;
+    }
+    it = next;
+  }
+}
+
+void SlidingWindow::AddLinesTo(WindowProblem& problem, const std::vector<int>& pose_of) const {
+  for (const auto& [track, one] : lines_) {
+    if (!one.used) continue;
+    const int first = static_cast<int>(problem.sights.size());
+    for (const LineSight& sight : one.sights) {
+      problem.sights.push_back({sight.left.get(), pose_of[sight.slot]});
+      if (sight.right) problem.sights.push_back({sight.right.get(), pose_of[sight.slot]});
+    }
+    problem.landmarks.push_back({line(one.slot), &kLine, first, static_cast<int>(problem.sights.size()) - first});
+  }
+}
+
+void SlidingWindow::RejectLines() {
+  const std::size_t newest = frames_.back()->slot;
+  for (auto it = lines_.begin(); it != lines_.end();) {
+    const auto next = std::next(it);
+    MapLine& one = it->second;
+    bool lost = false;
+    std::erase_if(one.sights, [&](const LineSight& s) {
+      const double* at[3] = {pose(s.slot), line(one.slot), rig_parameters()};
+      Vec2 r;
+      for (const LineFactor* factor : {s.left.get(), s.right.get()}) {
+        if (factor == nullptr || (factor->Evaluate(at, r.data(), nullptr) && r.norm() < kGate)) continue;
+        lost = lost || s.slot == newest;
+        return true;
+      }
+      return false;
+    });
+    // Followed wrongly, or never a line in space: an outline of something round.
+    if (lost || one.sights.empty()) {
+      EraseLine(it);
+    } else {
+      const PluckerLine known = LineAt(line(one.slot));
+      for (Vec3& end : one.ends_O) end = NearestOn(known, end);
+    }
+    it = next;
+  }
+}
+
+void SlidingWindow::EraseLine(std::map<std::uint64_t, MapLine>::iterator it) {
+  free_lines_.push_back(it->second.slot);
+  lines_.erase(it);
+}
+
+void SlidingWindow::EraseLineSights(std::size_t slot) {
+  for (auto it = lines_.begin(); it != lines_.end();) {
+    const auto next = std::next(it);
+    std::erase_if(it->second.sights, [slot](const LineSight& s) { return s.slot == slot; });
+    if (it->second.sights.empty()) EraseLine(it);
+    it = next;
+  }
+}
+
+std::vector<KnownLine> SlidingWindow::Lines() const {
+  std::vector<KnownLine> known;
+  for (const auto& [track, one] : lines_) known.push_back({track, one.ends_O});
+  return known;
+}
+
+int SlidingWindow::UsedLines() const {
+  return static_cast<int>(std::count_if(lines_.begin(), lines_.end(), [](const auto& l) { return l.second.used; }));
+}
+
+}  // namespace alula::stack::estimation
