@@ -1,4 +1,6 @@
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 
 #include "stack/estimation/internal/sliding_window.h"
 
@@ -13,6 +15,9 @@ namespace {
 LineManifold line_manifold;  // without state
 const LandmarkKind kLine{kLineSize, kLineTangent, &line_manifold};
 
+constexpr double kImpossible = 1e300;  // cost of a line that passes through an eye
+constexpr int kFits = 3;               // steps of a line by itself a frame
+constexpr double kDamping = 1e-3;
 constexpr double kGate = 3.5;  // σ of a sight's residual beyond which it is dropped: χ² with two at 99.8 %
 
 }  // namespace
@@ -42,28 +47,54 @@ void SlidingWindow::AddLines(const Frame& frame, const std::vector<LineSighting>
   }
 }
 
+double SlidingWindow::LineCost(const MapLine& one, const double* x, Eigen::Matrix4d* H, Eigen::Vector4d* b) const {
+  Eigen::Matrix<double, 2, 5, Eigen::RowMajor> J;
+  double* out[3] = {nullptr, J.data(), nullptr};
+  double cost = 0.0;
+  for (const LineSight& s : one.sights) {
+    const double* at[3] = {pose(s.slot), x, rig_parameters()};
+    Vec2 r;
+    for (const LineFactor* factor : {s.left.get(), s.right.get()}) {
+      if (factor == nullptr) continue;
+      if (!factor->Evaluate(at, r.data(), H != nullptr ? out : nullptr)) return kImpossible;
+      const double norm = r.norm(), w = norm > config_.huber ? config_.huber / norm : 1.0;
+      cost += w < 1.0 ? config_.huber * (norm - 0.5 * config_.huber) : 0.5 * norm * norm;
+      if (H == nullptr) continue;
+      *H += w * J.leftCols<4>().transpose() * J.leftCols<4>();
+      *b += w * J.leftCols<4>().transpose() * r;
+    }
+  }
+  return cost;
+}
+
+void SlidingWindow::FitLine(MapLine& one) {
+  double* x = line(one.slot);
+  for (int i = 0; i < kFits; ++i) {
+    Eigen::Matrix4d H = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d b = Eigen::Vector4d::Zero();
+    const double cost = LineCost(one, x, &H, &b);
+    if (cost >= kImpossible) return;
+    H.diagonal() *= 1.0 + kDamping;
+    H.diagonal().array() += 1e-9 * H.trace();
+    const Eigen::Vector4d step = -H.ldlt().solve(b);
+    std::array<double, kLineSize> moved{};
+    LinePlus(x, step.data(), moved.data());
+    if (!(LineCost(one, moved.data(), nullptr, nullptr) < cost)) return;
+    std::copy(moved.begin(), moved.end(), x);
+  }
+}
+
 void SlidingWindow::JudgeLines() {
   for (auto it = lines_.begin(); it != lines_.end();) {
     const auto next = std::next(it);
     MapLine& one = it->second;
-    const double* x = line(one.slot);
+    if (!one.used) FitLine(one);
     Eigen::Matrix4d information = Eigen::Matrix4d::Zero();
-    Eigen::Matrix<double, 2, 5, Eigen::RowMajor> J;
-    double* out[3] = {nullptr, J.data(), nullptr};
-    std::erase_if(one.sights, [&](const LineSight& s) {
-      const double* at[3] = {pose(s.slot), x, rig_parameters()};
-      Vec2 r;
-      for (const LineFactor* factor : {s.left.get(), s.right.get()}) {
-        if (factor == nullptr) continue;
-        if (!factor->Evaluate(at, r.data(), out)) return true;
-        information += J.leftCols<4>().transpose() * J.leftCols<4>();
-      }
-      return false;
-    });
-    if (one.sights.empty()) {
+    Eigen::Vector4d unused = Eigen::Vector4d::Zero();
+    if (LineCost(one, line(one.slot), &information, &unused) >= kImpossible) {
       EraseLine(it);
     } else {
-      const auto spread = SpreadOf(x, information, 0.5 * (one.ends_O[0] + one.ends_O[1]));
+      const auto spread = SpreadOf(line(one.slot), information, 0.5 * (one.ends_O[0] + one.ends_O[1]));
       one.used = one.sights.size() >= 2 && spread && spread->direction < lines_config_.max_direction &&
                  spread->place < lines_config_.max_place;
     }

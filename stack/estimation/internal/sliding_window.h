@@ -147,7 +147,11 @@ class SlidingWindow {
   double* line(std::size_t slot) const { return arena_.get() + line_begin_ + 8 * slot; }
   void AddLines(const Frame& frame, const std::vector<LineSighting>& lines);
   void AddLinesTo(WindowProblem& problem, const std::vector<int>& pose_of) const;
-  /// Drops sights that cannot be, and decides which lines the solver gets.
+  /// ½ Σ ρ of a line's sights, poses held; with H and b its normal equations.
+  double LineCost(const MapLine& one, const double* x, Eigen::Matrix4d* H, Eigen::Vector4d* b) const;
+  /// A line by itself, poses held, as long as the solver does not have it.
+  void FitLine(MapLine& one);
+  /// Decides which lines the solver gets.
   void JudgeLines();
   void RejectLines();
   void EraseLine(std::map<std::uint64_t, MapLine>::iterator it);
