@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "tests/scenarios/temporary_folder.h"
 
@@ -34,6 +35,24 @@ TEST(Command, HoverPassesEndToEnd) {
   EXPECT_LT(verdict["metrics"]["ate_online_m"], 0.05);
   EXPECT_TRUE(nlohmann::json::parse(ReadText(files / "timing.json"))["real_time_factor"].is_number());
   for (const auto& entry : fs::directory_iterator(files)) EXPECT_NE(entry.path().filename().string()[0], '.');
+}
+
+TEST(Command, TheDoorKnowsEveryVerb) {
+  const std::string help = Alula({"--help"}).out, door = ReadText(fs::path(ALULA_SOURCE_DIR) / "alula");
+  const std::size_t begin = door.find("verbs=\"") + 7;
+  const std::string known = " " + door.substr(begin, door.find('"', begin) - begin) + " ";
+  std::istringstream lines(help.substr(help.find("Subcommands:")));
+  std::string line, verb;
+  std::getline(lines, line);
+  int verbs = 0;
+  while (std::getline(lines, line)) {
+    if (line.size() < 4 || line[2] == ' ') continue;  // an empty line, or the text of a verb goes on
+    std::istringstream(line) >> verb;
+    EXPECT_NE(known.find(" " + verb + " "), std::string::npos) << verb;
+    EXPECT_NE(door.find("\n  " + verb + " "), std::string::npos) << verb << " is not in the door's help";
+    ++verbs;
+  }
+  EXPECT_GE(verbs, 8);
 }
 
 TEST(Command, FailedCriterionExitsWithOne) {
