@@ -12,8 +12,12 @@ using base::Vec3;
 
 namespace {
 
-LineManifold line_manifold;  // without state
-const LandmarkKind kLine{kLineSize, kLineTangent, &line_manifold};
+/// How a line's parameters move; the manifold has no state.
+const LandmarkKind& LineKind() {
+  static LineManifold manifold;
+  static const LandmarkKind kind{kLineSize, kLineTangent, &manifold};
+  return kind;
+}
 
 constexpr double kImpossible = 1e300;  // cost of a line that passes through an eye
 constexpr int kFits = 3;               // steps of a line by itself a frame
@@ -110,7 +114,7 @@ void SlidingWindow::AddLinesTo(WindowProblem& problem, const std::vector<int>& p
       problem.sights.push_back({sight.left.get(), pose_of[sight.slot]});
       if (sight.right) problem.sights.push_back({sight.right.get(), pose_of[sight.slot]});
     }
-    problem.landmarks.push_back({line(one.slot), &kLine, first, static_cast<int>(problem.sights.size()) - first});
+    problem.landmarks.push_back({line(one.slot), &LineKind(), first, static_cast<int>(problem.sights.size()) - first});
   }
 }
 
