@@ -59,6 +59,7 @@ TEST(Architecture, AllowedArrowsPass) {
   EXPECT_EQ(All(CheckFile("stack/mapping/map.cpp", "#include \"stack/mapping/internal/rays.h\"\n#include <vector>\n")),
             "");
   EXPECT_EQ(All(CheckFile("tests/sim/a_test.cpp", "#include \"sim/internal/shapes.h\"\n")), "");
+  EXPECT_EQ(All(CheckFile("bench/a_bench.cpp", "#include \"sim/internal/shapes.h\"\n")), "");
   EXPECT_EQ(All(CheckFile("sim/a.cpp", "#include \"stack/interface/command.h\"\n")), "");
 }
 
