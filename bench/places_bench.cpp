@@ -90,9 +90,9 @@ void MeasureOrb(const std::vector<Pair>& pairs, Figures& figures) {
 
 void MeasurePlaces(const features::StereoRig& rig, const std::vector<Pair>& pairs, Figures& figures) {
   std::vector<slam::PlaceView> views;
-  for (const Pair& p : pairs) views.push_back(slam::ViewOfStereoPair(rig, p.left, p.right, {}));
+  for (const Pair& p : pairs) views.push_back(slam::ViewOf(rig, p.left, p.right, {}));
   figures.Add("places/vicon_room/stereo_view/752x480_ms",
-              Median([&](std::size_t i) { slam::ViewOfStereoPair(rig, pairs[2 * i].left, pairs[2 * i].right, {}); }));
+              Median([&](std::size_t i) { slam::ViewOf(rig, pairs[2 * i].left, pairs[2 * i].right, {}); }));
   const slam::Vocabulary vocabulary = slam::LoadVocabulary(slam::VocabularyPath());
   figures.Add("places/vicon_room/vocabulary/load_ms",
               Median([&](std::size_t) { slam::LoadVocabulary(slam::VocabularyPath()); }));

@@ -72,6 +72,7 @@ struct CommandLine {
   std::vector<std::string> variants;  // slam: NAME:KEY=VALUE,…
   std::filesystem::path load_map;     // slam: a map from before; empty: none
   bool save_map = false;              // slam
+  std::filesystem::path camera_yaml;  // slam: calibration of a TUM RGB-D recording; empty: its own
   bool quiet = false;
   std::filesystem::path json;   // file of figures or verdicts; "-": standard output; empty: none
   std::filesystem::path junit;  // likewise

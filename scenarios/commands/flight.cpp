@@ -28,7 +28,7 @@ void CatchInterrupts() {
 
 /// The flying process's side: the verdict as JSON, a zero byte, the note.
 std::string FlyHere(const Scenario& scenario, RunOptions options, bool show, Pulse& pulse,
-                    const std::function<std::string()>& note) {
+                    const FlightNote& note) {
   if (options.out) LeaveStackTraceIn(sim::RunFolder::PartialOf(*options.out, ::getpid()) / "crash.txt");
   CatchInterrupts();
   Progress progress(scenario.name, LimitOf(scenario.config), show);
@@ -37,7 +37,8 @@ std::string FlyHere(const Scenario& scenario, RunOptions options, bool show, Pul
   options.pulse = &pulse.simulated_ns;
   const Verdict verdict = RunScenario(scenario, options);
   progress.Clear();
-  return ToJson(verdict) + '\0' + (note ? note() : "");
+  const auto alive = [&pulse] { pulse.simulated_ns.fetch_add(1, std::memory_order_relaxed); };
+  return ToJson(verdict) + '\0' + (note ? note(alive) : "");
 }
 
 }  // namespace
@@ -50,7 +51,7 @@ RunOptions OptionsOf(const CommandLine& line) {
 }
 
 FlightEnd Fly(const Scenario& scenario, const RunOptions& options, const CommandLine& line,
-              const std::function<std::string()>& note) {
+              const FlightNote& note) {
   const auto begin = std::chrono::steady_clock::now();  // for reports
   const Ending ending = Supervise(line.limits, [&](Pulse& pulse) {
     Report report;

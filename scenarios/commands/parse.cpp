@@ -199,7 +199,7 @@ SlamVerb AddSlam(CLI::App& app, CommandLine& line, Raw& raw) {
   SlamVerb slam;
   CLI::App* verb = slam.estimate = app.add_subcommand(
       "slam", "run the estimator on recorded data, or along a flight as it is rendered, and measure its trajectory");
-  verb->add_option("sources", line.names, "folders of recordings (EuRoC's layout), scenarios of the catalog or files");
+  verb->add_option("sources", line.names, "folders of recordings (EuRoC's, KITTI's or TUM's layout), scenarios of the catalog or files");
   verb->add_option(
           "--variant", line.variants,
           "NAME or NAME:KEY=VALUE,KEY=VALUE: an estimator with these keys of `stack` changed; all variants see "
@@ -210,6 +210,8 @@ SlamVerb AddSlam(CLI::App& app, CommandLine& line, Raw& raw) {
   AddFlight(*verb, line, raw);
   verb->add_flag("--save-map", line.save_map, "write the map of each estimator beside its trajectories: map.alula");
   verb->add_option("--load-map", line.load_map, "a map from before, in which every estimator finds itself again")
+      ->type_name("FILE");
+  verb->add_option("--camera", line.camera_yaml, "calibration of a recording in TUM's layout, in place of its own")
       ->type_name("FILE");
   verb->add_option("--out", raw.out, "folder of the trajectories (default: runs/slam/<name>)");
   verb->add_flag("--quiet", line.quiet, "no progress");

@@ -118,7 +118,7 @@ int Export(const CommandLine& line) {
   const fs::path folder = line.out ? *line.out : fs::path("datasets") / scenario.name / std::to_string(scenario.seed);
   const auto size = std::make_shared<dataset::DatasetSize>();
   options.spectators.push_back(dataset::RecordDataset({*line.dataset, scenario.name, scenario.seed, folder}, size));
-  const FlightEnd end = Fly(scenario, options, line, [&size] {
+  const FlightEnd end = Fly(scenario, options, line, [&size](const std::function<void()>&) {
     return fmt::format("{:.1f} s, {} images, {} depth images, {} inertial samples", size->span.Seconds(), size->images,
                        size->depth_images, size->imu_samples);
   });

@@ -46,9 +46,12 @@ int WatchFlight(const fs::path& file, std::uint64_t seed, const CommandLine& lin
   RunOptions options = OptionsOf(line);
   options.stack = slam::FeedEstimators(feed);
   options.spectators.push_back(slam::NoteTruth(feed));
-  const FlightEnd end = Fly(scenario, options, line, [&] {
+  const FlightEnd end = Fly(scenario, options, line, [&](const std::function<void()>& alive) {
     std::vector<slam::EstimatorResult> results;
-    for (slam::EstimatorRun& run : feed->runs) results.push_back(run.Finish());
+    for (slam::EstimatorRun& run : feed->runs) {
+      results.push_back(run.Finish());
+      alive();
+    }
     const slam::SlamReport report = slam::Judge(scenario.name, seed, std::move(results), feed->truth);
     slam::WriteFiles(report, FolderOf(line, scenario.name, seed));
     return slam::ToJson(report).dump();
@@ -66,7 +69,8 @@ int WatchFlight(const fs::path& file, std::uint64_t seed, const CommandLine& lin
 }
 
 int WatchRecording(const fs::path& folder, const CommandLine& line, nlohmann::ordered_json& all) {
-  const dataset::Recording recording = dataset::OpenRecording(folder);
+  const dataset::Recording recording =
+      dataset::OpenRecording(folder, line.camera_yaml.empty() ? std::nullopt : std::optional(line.camera_yaml));
   const std::string name = fs::canonical(folder).filename().string();
   const std::vector<slam::Variant> variants = Variants({}, line, 1);
   Progress progress(name, slam::SpanOf(recording), line.talks());

@@ -16,8 +16,4 @@ stack::Image LoadImage(const ImageFile& image, const stack::CameraCalibration& c
 /// 65.5 m that stack::DepthImage can hold; depths are rounded to the millimetre. Throws as LoadImage does.
 stack::DepthImage LoadDepth(const ImageFile& image, const stack::CameraCalibration& camera, double values_per_metre);
 
-/// The luma of a colour image, Y = 0.299 R + 0.587 G + 0.114 B (ITU-R BT.601, as OpenCV and JPEG have it), rounded to
-/// the nearest; a grey image as it is, its pixels shared.
-stack::Image ToGrey(const stack::Image& image);
-
 }  // namespace alula::scenarios::dataset

@@ -5,6 +5,8 @@
 
 #include "base/error.h"
 #include "scenarios/dataset/image_file.h"
+#include "stack/features/depth_registration.h"
+#include "stack/interface/grey.h"
 
 namespace alula::scenarios::slam {
 namespace {
@@ -26,6 +28,31 @@ const ImageFile* PartnerOf(const ImageFile& left, const std::vector<ImageFile>& 
   }
   return best;
 }
+
+/// Depth images as the camera of the pictures would see them.
+class Depths {
+ public:
+  Depths(const Recording& recording, std::size_t picture) : recording_(recording) {
+    if (!recording.depth) return;
+    const stack::CameraCalibration &from = recording.calibration.cameras.at(recording.depth->camera),
+                                   &into = recording.calibration.cameras.at(picture);
+    if (!stack::features::Registered(from, into)) registration_.emplace(from, into);
+  }
+
+  /// Empty where the picture has none.
+  stack::DepthImage Of(std::size_t picture) const {
+    const std::optional<std::size_t> i = recording_.depth->of_picture.at(picture);
+    if (!i) return {};
+    const std::size_t camera = recording_.depth->camera;
+    const stack::DepthImage image = dataset::LoadDepth(
+        recording_.images[camera][*i], recording_.calibration.cameras[camera], recording_.depth->values_per_metre);
+    return registration_ ? (*registration_)(image) : image;
+  }
+
+ private:
+  const Recording& recording_;
+  std::optional<stack::features::DepthRegistration> registration_;
+};
 
 /// A time cut to whole tenths of a second.
 Time Tenths(Time time) { return {time.ns - time.ns % 100'000'000}; }
@@ -58,10 +85,10 @@ std::vector<base::StampedPose> TruthOf(const Recording& recording) {
 
 std::vector<EstimatorResult> FeedRecording(const Recording& recording, const std::vector<Variant>& variants,
                                            const std::function<void(base::Time)>& progress) {
-  const auto& stereo = recording.calibration.stereo;
-  if (!stereo) throw base::InputError("the recording has no stereo pair");
-  const auto l = static_cast<std::size_t>((*stereo)[0]), r = static_cast<std::size_t>((*stereo)[1]);
-  const std::vector<ImageFile>&lefts = recording.images.at(l), &rights = recording.images.at(r);
+  const stack::estimation::SensorSet set = stack::estimation::ChooseSensors(recording.calibration, {});
+  const auto l = static_cast<std::size_t>(set.picture);
+  const std::vector<ImageFile>& lefts = recording.images.at(l);
+  const Depths depths(recording, l);
   const Duration epoch = EpochOf(recording);
   std::vector<EstimatorRun> runs;
   for (const Variant& variant : variants)
@@ -72,14 +99,18 @@ std::vector<EstimatorResult> FeedRecording(const Recording& recording, const std
   std::uint32_t seq = 0;
   for (std::size_t i = 0; i < lefts.size(); ++i) {
     progress(Tenths(lefts[i].captured - epoch));
-    const ImageFile* right = PartnerOf(lefts[i], rights);
-    if (right == nullptr) continue;
     stack::estimation::FrameInput frame;
+    if (set.right) {
+      const auto r = static_cast<std::size_t>(*set.right);
+      const ImageFile* right = PartnerOf(lefts[i], recording.images.at(r));
+      if (right == nullptr) continue;
+      frame.right = stack::ToGrey(dataset::LoadImage(*right, recording.calibration.cameras[r]));
+    }
+    if (set.depth) frame.depth = depths.Of(i);
     frame.seq = seq++;
     const Time stamp = lefts[i].captured + offset;
     frame.stamp = stamp - epoch;
-    frame.left = dataset::ToGrey(dataset::LoadImage(lefts[i], recording.calibration.cameras[l]));
-    frame.right = dataset::ToGrey(dataset::LoadImage(*right, recording.calibration.cameras[r]));
+    frame.left = stack::ToGrey(dataset::LoadImage(lefts[i], recording.calibration.cameras[l]));
     for (; used < recording.imu.size() && (used == 0 || recording.imu[used - 1].time < stamp); ++used) {
       const dataset::ImuReading& reading = recording.imu[used];
       frame.imu.push_back({reading.time - epoch, reading.sample.angular_velocity, reading.sample.specific_force});

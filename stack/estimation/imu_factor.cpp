@@ -13,7 +13,7 @@ bool ImuFactor::Evaluate(double const* const* parameters, double* residuals, dou
   const Vec3 v_i = Vec3At(s_i), g_i = Vec3At(s_i + 3), a_i = Vec3At(s_i + 6);
   const Vec3 v_j = Vec3At(s_j), g_j = Vec3At(s_j + 3), a_j = Vec3At(s_j + 6);
   const double dt = integral_->dt();
-  const Vec3 gravity(0, 0, -base::kGravity);
+  const Vec3& gravity = gravity_;
   const ImuPreintegration::Corrected m = integral_->At(g_i, a_i);
   const Mat3 R_iT = X_i.R().transpose();
   const Vec3 dv = R_iT * (v_j - v_i - gravity * dt);

@@ -10,9 +10,11 @@
 #include "base/random.h"
 #include "stack/estimation/internal/sliding_window.h"
 #include "stack/estimation/static_initialiser.h"
+#include "stack/estimation/steady_motion.h"
 #include "stack/features/line_segments.h"
 #include "stack/features/line_stereo.h"
 #include "stack/features/line_tracks.h"
+#include "stack/features/pose_ransac.h"
 #include "stack/features/stereo_tracker.h"
 #include "stack/features/translation_ransac.h"
 
@@ -29,6 +31,7 @@ using features::Track;
 
 constexpr double kRansacGate = 3.0;  // px
 constexpr int kRansacTrials = 40;    // two points: 80 % inliers fail with 1e-18
+constexpr int kPoseTrials = 100;     // three points: 60 % inliers fail with 1e-10
 
 /// Processor time of a scope in ms, for profiling alone.
 class StageClock {
@@ -55,10 +58,32 @@ double Median(std::vector<double> values) {
   return *middle;
 }
 
-const ImuCalibration& ImuOf(const Calibration& calibration) {
-  if (!calibration.imu) throw base::InputError("calibration: no IMU; stereo-inertial odometry needs one");
-  return *calibration.imu;
+SensorSet Checked(const Calibration& calibration, const OdometryConfig& config) {
+  SensorSet set = ChooseSensors(calibration, config.sensors);
+  if (config.lines.enabled && set.rig.depth != features::DepthSource::kStereo)
+    throw base::InputError("odometry.lines.enabled: lines need a stereo pair");
+  return set;
 }
+
+/// Where there is none: steady motion of the body itself.
+ImuCalibration ImuOf(const SensorSet& set, const MotionConfig& motion) {
+  if (set.imu) return *set.imu;
+  ImuCalibration steady;
+  steady.noise = SteadyNoise(motion);
+  return steady;
+}
+
+/// What these sensors cannot tell is not estimated.
+WindowConfig Adapted(WindowConfig window, const SensorSet& set) {
+  constexpr double kHeld = 1e-6;
+  if (set.rig.depth != features::DepthSource::kStereo) window.eye_rotation_sigma = kHeld;
+  if (set.imu) return window;
+  window.camera_rotation_sigma = window.time_offset_sigma = kHeld;
+  window.imu_noise_scale = 1.0;
+  return window;
+}
+
+Vec3 GravityOf(const SensorSet& set) { return {0, 0, set.imu ? -base::kGravity : 0.0}; }
 
 /// Between neighbours, s.
 double LargestGap(const std::vector<TimedImu>& samples) {
@@ -68,57 +93,124 @@ double LargestGap(const std::vector<TimedImu>& samples) {
   return gap;
 }
 
-Transform LeftCamera(const Calibration& calibration) {
-  return calibration.cameras.at(static_cast<std::size_t>((*calibration.stereo)[0])).X_BC;
-}
-
 }  // namespace
 
-class StereoInertialOdometry::Impl {
+class Odometry::Impl {
  public:
   Impl(const Calibration& calibration, const OdometryConfig& config, const Transform& X_OB_start)
       : config_(config),
-        rig_(features::MakeRig(calibration)),
-        imu_(ImuOf(calibration)),
+        sensors_(Checked(calibration, config)),
+        rig_(sensors_.rig),
+        imu_(ImuOf(sensors_, config.motion)),
+        gravity_(GravityOf(sensors_)),
         X_OB_start_(X_OB_start),
         tracker_(rig_, config.tracker),
-        window_(rig_, imu_.X_BI.Inverse() * LeftCamera(calibration), imu_.noise, config.window, config.lines) {}
+        window_(rig_, imu_.X_BI.Inverse() * sensors_.X_BC, imu_.noise, Adapted(config.window, sensors_), config.lines,
+                gravity_) {}
 
   FrameResult Process(const FrameInput& input) {
     ++timing_.frames;
     FrameResult result;
     result.seq = input.seq;
     result.reset_counter = reset_counter_;
-    for (const TimedImu& s : input.imu) {
-      if (samples_.empty() || s.time > samples_.back().time) samples_.push_back(s);
-    }
+    TakeSamples(input);
     if (samples_.empty()) {
       result.note = "no inertial samples yet";
     } else if (last_stamp_ && input.stamp <= *last_stamp_) {
       result.note = "image is not newer than the one before";
+    } else if (holding_ && StandsStill(input)) {
+      Hold(input, result);
     } else if (running_) {
+      holding_ = false;
       Run(input, result);
-    } else {
+    } else if (sensors_.imu) {
       Initialise(input, result);
+    } else {
+      BeginAtOnce(input, result);
     }
     if (!last_stamp_ || input.stamp > *last_stamp_) last_stamp_ = input.stamp;
     if (running_) Report(result);
     return result;
   }
 
+  const SensorSet& sensors() const { return sensors_; }
   CalibrationEstimate Rig() const { return window_.Rig(); }
   OdometryTiming Timing() const { return timing_; }
 
  private:
-  // --- standing still ---------------------------------------------------------------------------------------------
+  void TakeSamples(const FrameInput& input) {
+    if (!sensors_.imu) {
+      if (!last_stamp_ || input.stamp > *last_stamp_)
+        samples_ = SteadySamples(last_stamp_.value_or(input.stamp), input.stamp, rate_);
+      return;
+    }
+    for (const TimedImu& s : input.imu) {
+      if (samples_.empty() || s.time > samples_.back().time) samples_.push_back(s);
+    }
+  }
 
-  void Initialise(const FrameInput& input, FrameResult& result) {
-    std::vector<Track> tracks = tracker_.Follow(input.left, input.right, Transform());
+  // --- beginning --------------------------------------------------------------------------------------------------
+
+  void BeginAtOnce(const FrameInput& input, FrameResult& result) {
+    tracker_.Follow(input.left, input.right, Transform(), input.depth);
+    ImuState state;
+    state.stamp = input.stamp;
+    state.X_OI = X_OB_start_ * imu_.X_BI;
+    Begin(state, SteadyStart());
+    result.inliers = result.tracked = tracker_.ReferenceCount();
+    if (result.inliers < config_.static_init.min_features) {
+      result.note = "too few corners to begin";
+      return;
+    }
+    result.keyframe = true;
+    running_ = true;
+  }
+
+  /// Any speed is possible; what stands for an IMU has no biases.
+  StartSigmas SteadyStart() const {
+    StartSigmas sigmas;
+    sigmas.tilt = sigmas.heading;
+    sigmas.velocity = config_.failure.max_speed;
+    sigmas.gyro_bias = sigmas.accel_bias = 1e-6;
+    return sigmas;
+  }
+
+  double FlowOf(const std::vector<Track>& tracks) const {
     std::vector<double> flow;
     for (const Track& t : tracks) flow.push_back((t.left - t.reference).norm() * rig_.left.fx);
+    return Median(std::move(flow));
+  }
+
+  bool StandsStill(const FrameInput& input) {
+    tracks_ = tracker_.Follow(input.left, input.right, Transform(), input.depth);
+    return static_cast<int>(tracks_.size()) >= config_.static_init.min_features &&
+           FlowOf(tracks_) <= config_.static_init.max_median_flow;
+  }
+
+  /// One camera learns nothing of depth before it moves: the window begins anew with every image until then.
+  void Hold(const FrameInput& input, FrameResult& result) {
+    ImuState state = window_.Newest();
+    state.stamp = input.stamp;
+    window_.Start(state, StandingSigmas(), Sightings(tracks_));
+    last_keyframe_ = last_seeing_ = state.stamp;
+    std::erase_if(samples_, [&](const TimedImu& s) { return s.time < input.stamp - base::Milliseconds(100); });
+    result.inliers = result.tracked = static_cast<int>(tracks_.size());
+    View(tracks_, result);
+  }
+
+  StartSigmas StandingSigmas() const {
+    StartSigmas sigmas;
+    sigmas.tilt = config_.window.tilt_sigma;
+    sigmas.gyro_bias = 1e-3;  // the mean of a second, rotors turning
+    if (imu_.noise.accelerometer_turn_on_bias > 0) sigmas.accel_bias = imu_.noise.accelerometer_turn_on_bias;
+    return sigmas;
+  }
+
+  void Initialise(const FrameInput& input, FrameResult& result) {
+    const std::vector<Track> tracks = tracker_.Follow(input.left, input.right, Transform(), input.depth);
     result.tracked = static_cast<int>(tracks.size());
     const bool few = result.tracked < config_.static_init.min_features;
-    const bool moves = Median(flow) > config_.static_init.max_median_flow;
+    const bool moves = FlowOf(tracks) > config_.static_init.max_median_flow;
     if (!still_since_ || few || moves) {
       result.note = !still_since_ ? "waiting for standstill" : few ? "too few corners to judge standstill" : "moving";
       tracker_.MakeReference();
@@ -144,11 +236,8 @@ class StereoInertialOdometry::Impl {
     const base::Quat q_OB = standing->q_OI * imu_.X_BI.q.conjugate();
     state.X_OI.p = X_OB_start_.p + q_OB * imu_.X_BI.p;
     state.gyro_bias = standing->gyro_bias;
-    StartSigmas sigmas;
-    sigmas.tilt = config_.window.tilt_sigma;
-    sigmas.gyro_bias = 1e-3;  // the mean of a second, rotors turning
-    if (imu_.noise.accelerometer_turn_on_bias > 0) sigmas.accel_bias = imu_.noise.accelerometer_turn_on_bias;
-    Begin(state, sigmas);
+    Begin(state, StandingSigmas());
+    holding_ = rig_.depth == features::DepthSource::kNone;
     result.inliers = result.tracked;
     result.keyframe = true;
     running_ = true;
@@ -169,8 +258,8 @@ class StereoInertialOdometry::Impl {
     const std::vector<TimedImu> samples = Cut(samples_, before.stamp, input.stamp);
     if (samples_.back().time < input.stamp) result.note = "inertial samples end before the image";
     std::erase_if(samples_, [&](const TimedImu& s) { return s.time < input.stamp - base::Milliseconds(100); });
-    const ImuState predicted = Propagate(before, samples);
-    if (const double gap = LargestGap(samples); gap > config_.failure.max_imu_gap) {
+    ImuState predicted = Propagate(before, samples, gravity_);
+    if (const double gap = LargestGap(samples); sensors_.imu && gap > config_.failure.max_imu_gap) {
       Follow(input, predicted, result);
       Restart(predicted, samples.back(), gap, result);
       return;
@@ -187,10 +276,13 @@ class StereoInertialOdometry::Impl {
     bool solved = false;
     {
       const StageClock clock(timing_.solve);
-      window_.AddFrame(samples, Sightings(tracks), keyframe, lines);
+      window_.AddFrame(samples, Sightings(tracks), keyframe, lines,
+                       sensors_.imu ? std::nullopt : std::optional(predicted.X_OI));
       solved = window_.Solve();
       tracker_.Drop(window_.RejectOutliers());
     }
+    const double dt = (input.stamp - before.stamp).Seconds();
+    if (!sensors_.imu) rate_ = base::Log(before.X_OI.q.conjugate() * window_.Newest().X_OI.q) / dt;
     result.inliers = 0;
     for (const Track& t : tracks) result.inliers += window_.SeenInNewest(t.id) ? 1 : 0;
     result.inliers += window_.UsedLines();
@@ -215,34 +307,49 @@ class StereoInertialOdometry::Impl {
     window_.Slide();
   }
 
-  /// Corners in the new pair, without those that do not move as the scene does.
-  std::vector<Track> Follow(const FrameInput& input, const ImuState& predicted, FrameResult& result) {
+  /// Corners in the new images, without those that do not move as the scene does. Where nothing but the images tells
+  /// how the camera turned, they correct the prediction.
+  std::vector<Track> Follow(const FrameInput& input, ImuState& predicted, FrameResult& result) {
     const StageClock clock(timing_.track);
     const Transform X_OC = predicted.X_OI * window_.X_IC();
-    std::vector<Track> tracks = tracker_.Follow(input.left, input.right, X_OC_reference_.Inverse() * X_OC);
+    std::vector<Track> tracks = tracker_.Follow(input.left, input.right, X_OC_reference_.Inverse() * X_OC, input.depth);
     result.tracked = static_cast<int>(tracks.size());
 
-    const Transform X_CO = X_OC.Inverse();
-    std::vector<features::TurnedPoint> points;
+    std::vector<features::PointAndRay> points;
     std::vector<std::size_t> index;
     for (std::size_t i = 0; i < tracks.size(); ++i) {
       const std::optional<Vec3> p_O = window_.Landmark(tracks[i].id);
       if (!p_O) continue;
       index.push_back(i);
-      points.push_back({X_CO.q * *p_O, tracks[i].left});
+      points.push_back({*p_O, tracks[i].left});
     }
-    base::RandomStream random(input.seq, "odometry/translation_ransac");
-    const features::TranslationResult motion =
-        features::FindTranslation(points, X_CO.p, kRansacGate / rig_.left.fx, kRansacTrials, random);
+    const std::vector<bool> inlier = sensors_.imu ? AgreeingWithTurn(points, X_OC.Inverse(), input.seq)
+                                                  : AgreeingWithPose(points, X_OC.Inverse(), input.seq, predicted);
     std::vector<std::uint64_t> outliers;
     for (std::size_t k = 0; k < index.size(); ++k) {
-      if (!motion.inlier[k]) outliers.push_back(tracks[index[k]].id);
+      if (!inlier[k]) outliers.push_back(tracks[index[k]].id);
     }
     tracker_.Drop(outliers);
     std::erase_if(tracks, [&outliers](const Track& t) {
       return std::find(outliers.begin(), outliers.end(), t.id) != outliers.end();
     });
     return tracks;
+  }
+
+  std::vector<bool> AgreeingWithTurn(const std::vector<features::PointAndRay>& points, const Transform& X_CO,
+                                     std::uint32_t seq) const {
+    std::vector<features::TurnedPoint> turned;
+    for (const features::PointAndRay& p : points) turned.push_back({X_CO.q * p.p, p.seen});
+    base::RandomStream random(seq, "odometry/translation_ransac");
+    return features::FindTranslation(turned, X_CO.p, kRansacGate / rig_.left.fx, kRansacTrials, random).inlier;
+  }
+
+  std::vector<bool> AgreeingWithPose(const std::vector<features::PointAndRay>& points, const Transform& X_CO,
+                                     std::uint32_t seq, ImuState& predicted) const {
+    base::RandomStream random(seq, "odometry/pose_ransac");
+    const features::PoseResult pose = features::FindPose(points, X_CO, kRansacGate / rig_.left.fx, kPoseTrials, random);
+    if (pose.inliers >= config_.failure.min_inliers) predicted.X_OI = pose.X_TS.Inverse() * window_.X_IC().Inverse();
+    return pose.inlier;
   }
 
   /// Lines of the window where they are seen now; in a keyframe also those that are new, by both eyes.
@@ -314,7 +421,7 @@ class StereoInertialOdometry::Impl {
     if (inliers >= c.min_inliers) last_seeing_ = stamp;
     failed_solves_ = solved ? 0 : failed_solves_ + 1;
     if (failed_solves_ > 3) return "the solver failed repeatedly";
-    if (blind > c.max_blind_time) return "blind for too long";
+    if (blind > (sensors_.imu ? c.max_blind_time : config_.motion.max_blind_time)) return "blind for too long";
     if (state.gyro_bias.norm() > c.max_gyro_bias) return "gyroscope bias out of range";
     if (state.accel_bias.norm() > c.max_accel_bias) return "accelerometer bias out of range";
     if (state.v_OI.norm() > c.max_speed) return "speed out of range";
@@ -333,6 +440,11 @@ class StereoInertialOdometry::Impl {
     sigmas.velocity = 0.5;
     sigmas.gyro_bias = 0.01;
     sigmas.accel_bias = 0.3;
+    if (!sensors_.imu) {
+      sigmas = SteadyStart();
+      rate_.setZero();
+      state.v_OI.setZero();
+    }
     BeginAnew(state, sigmas, why, result);
   }
 
@@ -374,8 +486,8 @@ class StereoInertialOdometry::Impl {
     out.X_OB = s.X_OI * X_IB;
     out.gyro_bias = s.gyro_bias;
     out.accel_bias = s.accel_bias;
-    const TimedImu now = Cut(samples_, s.stamp, s.stamp).front();
-    const Vec3 w_B = imu_.X_BI.q * (now.gyro - s.gyro_bias);
+    const Vec3 rate = sensors_.imu ? Vec3(Cut(samples_, s.stamp, s.stamp).front().gyro - s.gyro_bias) : rate_;
+    const Vec3 w_B = imu_.X_BI.q * rate;
     out.w_B = w_B;
     out.v_OB = s.v_OI - out.X_OB.q * w_B.cross(imu_.X_BI.p);
     result.initialised = true;
@@ -408,14 +520,19 @@ class StereoInertialOdometry::Impl {
   static constexpr std::uint64_t kCovariancePeriod = 4;  // frames; a millisecond each
 
   OdometryConfig config_;
+  SensorSet sensors_;
   features::StereoRig rig_;
   ImuCalibration imu_;
+  Vec3 gravity_;  // m/s², in O
   Transform X_OB_start_;
   features::StereoTracker tracker_;
   SlidingWindow window_;
   std::vector<TimedImu> samples_;
   std::optional<Time> last_stamp_, still_since_;
   bool running_ = false;
+  bool holding_ = false;       // one camera that has not moved yet
+  std::vector<Track> tracks_;  // of an image in which it may hold
+  Vec3 rate_ = Vec3::Zero();   // rad/s, body, as the last two images show it; without an IMU
   Time last_keyframe_, last_seeing_;
   Transform X_OC_reference_;  // left camera of the tracker's reference pair
   Mat15 window_covariance_ = Mat15::Zero();
@@ -425,15 +542,15 @@ class StereoInertialOdometry::Impl {
   OdometryTiming timing_;
 };
 
-StereoInertialOdometry::StereoInertialOdometry(const Calibration& calibration, const OdometryConfig& config,
-                                               const Transform& X_OB_start)
+Odometry::Odometry(const Calibration& calibration, const OdometryConfig& config, const Transform& X_OB_start)
     : impl_(std::make_unique<Impl>(calibration, config, X_OB_start)) {}
-StereoInertialOdometry::~StereoInertialOdometry() = default;
-StereoInertialOdometry::StereoInertialOdometry(StereoInertialOdometry&&) noexcept = default;
-StereoInertialOdometry& StereoInertialOdometry::operator=(StereoInertialOdometry&&) noexcept = default;
+Odometry::~Odometry() = default;
+Odometry::Odometry(Odometry&&) noexcept = default;
+Odometry& Odometry::operator=(Odometry&&) noexcept = default;
 
-FrameResult StereoInertialOdometry::Process(const FrameInput& input) { return impl_->Process(input); }
-CalibrationEstimate StereoInertialOdometry::RefinedCalibration() const { return impl_->Rig(); }
-OdometryTiming StereoInertialOdometry::Timing() const { return impl_->Timing(); }
+FrameResult Odometry::Process(const FrameInput& input) { return impl_->Process(input); }
+const SensorSet& Odometry::sensors() const { return impl_->sensors(); }
+CalibrationEstimate Odometry::RefinedCalibration() const { return impl_->Rig(); }
+OdometryTiming Odometry::Timing() const { return impl_->Timing(); }
 
 }  // namespace alula::stack::estimation

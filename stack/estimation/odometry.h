@@ -22,13 +22,14 @@ struct TimedImu {
   base::Vec3 accel = base::Vec3::Zero();
 };
 
-/// A stereo pair and the inertial samples that lead to it.
+/// What was seen at one instant and the inertial samples that lead to it. What a vehicle does not have stays empty.
 struct FrameInput {
   std::uint32_t seq = 0;
-  base::Time stamp;  // of both images, in IMU time (captured + nominal offset)
-  Image left, right;
+  base::Time stamp;    // of all images, in IMU time (captured + nominal offset)
+  Image left, right;   // 8-bit grey; a camera without a partner is the left one
+  DepthImage depth{};  // as the left camera sees it
   /// All samples newer than those of the previous frame, at least up to the first one at or after `stamp`, in order.
-  std::vector<TimedImu> imu;
+  std::vector<TimedImu> imu{};
 };
 
 /// Motion of the body at an instant, and the IMU's biases. The odometry frame O is z up; its origin and heading are
@@ -78,25 +79,29 @@ struct OdometryTiming {
   std::uint64_t frames = 0;
 };
 
-/// Stereo-inertial odometry: a sliding window of poses, velocities, biases and landmarks, solved in the least-squares
-/// sense (Leutenegger et al. 2015; Qin et al. 2018; Forster et al. 2017; Usenko et al. 2020). One call a stereo pair:
+/// Visual odometry from a stereo pair, a depth camera or one camera, with or without an IMU: a sliding window of poses,
+/// velocities, biases and landmarks, solved in the least-squares sense (Leutenegger et al. 2015; Qin et al. 2018;
+/// Forster et al. 2017; Usenko et al. 2020). One call a frame:
 ///
 ///   track corners from the reference keyframe (prediction by the IMU) → reject what does not move rigidly
 ///   → new keyframe? find corners, match left to right → solve the window → drop outliers → slide the window.
 ///
-/// Until the vehicle has stood still for a second `initialised` is false and `note` says why. Deterministic, one
-/// thread.
-class StereoInertialOdometry {
+/// With an IMU `initialised` is false until the vehicle has stood still for a second, and `note` says why; one camera
+/// with an IMU holds its place until it moves. Without an IMU it begins at once, level is what the start says, and
+/// motion is expected to go on as it is (MotionConfig). Deterministic, one thread.
+class Odometry {
  public:
-  /// `X_OB_start`: position and heading of the body at the start; roll and pitch come from gravity.
-  /// Throws base::InputError where the calibration has no stereo pair or no IMU.
-  StereoInertialOdometry(const Calibration& calibration, const OdometryConfig& config,
-                         const base::Transform& X_OB_start);
-  ~StereoInertialOdometry();
-  StereoInertialOdometry(StereoInertialOdometry&&) noexcept;
-  StereoInertialOdometry& operator=(StereoInertialOdometry&&) noexcept;
+  /// `X_OB_start`: position and heading of the body at the start; roll and pitch come from gravity where there is an
+  /// IMU. Throws base::InputError as ChooseSensors does, and for lines without a stereo pair.
+  Odometry(const Calibration& calibration, const OdometryConfig& config, const base::Transform& X_OB_start);
+  ~Odometry();
+  Odometry(Odometry&&) noexcept;
+  Odometry& operator=(Odometry&&) noexcept;
 
   FrameResult Process(const FrameInput& input);
+
+  const SensorSet& sensors() const;
+  bool KnowsVertical() const { return sensors().imu.has_value(); }
 
   CalibrationEstimate RefinedCalibration() const;
   OdometryTiming Timing() const;

@@ -21,6 +21,8 @@ void Describe(base::Description& d, WindowConfig& c) {
           {.unit = "px", .meaning = "final error beyond which a sight is dropped", .min = 0.5, .max = 100});
   d.Field("min_depth", c.min_depth, {.unit = "m", .meaning = "nearer landmarks are not made", .min = 0.01});
   d.Field("max_depth", c.max_depth, {.unit = "m", .meaning = "a landmark begins no farther", .min = 1});
+  d.Field("min_ray_angle", c.min_ray_angle,
+          {.unit = "rad", .meaning = "between one camera's rays before a depth is believed", .min = 1e-4, .max = 1});
   d.Field("consumed_share", c.consumed_share,
           {.meaning = "of followed landmarks of a leaving keyframe that go into the prior", .min = 0, .max = 1});
   d.Field("imu_noise_scale", c.imu_noise_scale, {.meaning = "on the calibrated densities", .min = 0.1, .max = 100});
@@ -37,6 +39,13 @@ void Describe(base::Description& d, WindowConfig& c) {
   d.Check("recent_frames", [&c] {
     return c.recent_frames + 2 <= c.frames ? "" : "recent_frames must leave two of the window's frames to keyframes";
   });
+}
+
+void Describe(base::Description& d, MotionConfig& c) {
+  d.Field("acceleration", c.acceleration,
+          {.unit = "m/s^2/sqrt(Hz)", .meaning = "white noise on a steady speed", .min = 1e-3, .max = 1e3});
+  d.Field("turn", c.turn, {.unit = "rad/s/sqrt(Hz)", .meaning = "likewise on a turn rate", .min = 1e-3, .max = 1e3});
+  d.Field("max_blind_time", c.max_blind_time, {.unit = "s", .meaning = "with too few inliers", .min = 0.05});
 }
 
 void Describe(base::Description& d, LinesConfig& c) {
@@ -73,9 +82,11 @@ void Describe(base::Description& d, FailureConfig& c) {
 }
 
 void Describe(base::Description& d, OdometryConfig& c) {
+  d.Field("sensors", c.sensors, {.meaning = "what it looks at"});
   d.Field("tracker", c.tracker, {.meaning = "how corners are found and followed"});
   d.Field("static_init", c.static_init, {.meaning = "how standstill is judged"});
   d.Field("window", c.window, {.meaning = "the sliding window and its noise model"});
+  d.Field("motion", c.motion, {.meaning = "what is expected of motion without an IMU"});
   d.Field("lines", c.lines, {.meaning = "straight edges beside corners"});
   d.Field("keyframe", c.keyframe, {.meaning = "when a keyframe is due"});
   d.Field("failure", c.failure, {.meaning = "signs that the estimate has failed"});

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "base/describe.h"
+#include "stack/estimation/sensor_set.h"
 #include "stack/features/line_stereo.h"
 #include "stack/features/line_tracks.h"
 #include "stack/features/stereo_tracker_config.h"
@@ -28,6 +29,7 @@ struct WindowConfig {
   double outlier_gate = 4.0;              // px of final residual beyond which an observation is dropped
   double min_depth = 0.15;                // m; nearer landmarks are dropped
   double max_depth = 80.0;                // m; a landmark begins no farther
+  double min_ray_angle = 0.02;            // rad: what one camera's rays must make before a depth is believed
   double consumed_share = 0.5;            // of live tracks seen by a leaving keyframe that go into the prior
   double imu_noise_scale = 1.5;           // on the calibrated densities: vibration, sampling
   double tilt_sigma = 0.035;              // rad, of the first state; the accelerometer decides
@@ -36,6 +38,15 @@ struct WindowConfig {
   double time_offset_sigma = 0.002;       // s
   bool refine_calibration = true;         // estimate those three online
   bool first_estimates = true;            // priors linearised where a state first entered one; off: for comparison
+};
+
+/// What is taken for granted of motion where no IMU measures it: speed and turn rate go on as they are, but for white
+/// noise (a Gaussian process with white noise on acceleration; Anderson and Barfoot 2015). It stands where inertial
+/// samples would, without gravity.
+struct MotionConfig {
+  double acceleration = 2.0;    // m/s²/√Hz
+  double turn = 0.3;            // rad/s/√Hz, of the rate
+  double max_blind_time = 0.5;  // s with fewer than `failure.min_inliers`: after that nothing is known of the way
 };
 
 /// Lines beside points.
@@ -70,9 +81,11 @@ struct FailureConfig {
 };
 
 struct OdometryConfig {
+  SensorsConfig sensors;
   features::StereoTrackerConfig tracker;
   StaticInitConfig static_init;
   WindowConfig window;
+  MotionConfig motion;
   LinesConfig lines;
   KeyframeConfig keyframe;
   FailureConfig failure;
@@ -80,6 +93,7 @@ struct OdometryConfig {
 
 void Describe(base::Description& d, StaticInitConfig& c);
 void Describe(base::Description& d, WindowConfig& c);
+void Describe(base::Description& d, MotionConfig& c);
 void Describe(base::Description& d, LinesConfig& c);
 void Describe(base::Description& d, KeyframeConfig& c);
 void Describe(base::Description& d, FailureConfig& c);

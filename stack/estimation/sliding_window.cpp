@@ -1,5 +1,6 @@
 #include "stack/estimation/internal/sliding_window.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
@@ -12,11 +13,10 @@ using base::Time;
 using base::Transform;
 using base::Vec3;
 
-ImuState Propagate(const ImuState& from, const std::vector<TimedImu>& samples) {
+ImuState Propagate(const ImuState& from, const std::vector<TimedImu>& samples, const Vec3& gravity) {
   ImuPreintegration integral({}, from.gyro_bias, from.accel_bias);
   integral.Append(samples);
   const double dt = integral.dt();
-  const Vec3 gravity(0, 0, -base::kGravity);
   ImuState to = from;
   to.stamp = samples.back().time;
   to.X_OI.p += from.v_OI * dt + 0.5 * gravity * dt * dt + from.X_OI.q * integral.dp();
@@ -26,11 +26,12 @@ ImuState Propagate(const ImuState& from, const std::vector<TimedImu>& samples) {
 }
 
 SlidingWindow::SlidingWindow(const features::StereoRig& rig, const Transform& X_IC, const ImuNoise& noise,
-                             const WindowConfig& config, const LinesConfig& lines)
+                             const WindowConfig& config, const LinesConfig& lines, const Vec3& gravity)
     : rig_(rig),
       X_IC_(X_IC),
       X_RL_(rig.X_LR.Inverse()),
       noise_(noise),
+      gravity_(gravity),
       config_(config),
       lines_config_(lines),
       max_points_(4000),
@@ -107,9 +108,11 @@ SlidingWindow::Frame& SlidingWindow::AppendFrame(Time stamp, bool keyframe, cons
 }
 
 void SlidingWindow::AddFrame(const std::vector<TimedImu>& samples, const std::vector<Sighting>& sightings,
-                             bool keyframe, const std::vector<LineSighting>& lines) {
+                             bool keyframe, const std::vector<LineSighting>& lines,
+                             const std::optional<Transform>& X_OI) {
   const ImuState before = Newest();
-  const ImuState predicted = Propagate(before, samples);
+  ImuState predicted = Propagate(before, samples, gravity_);
+  if (X_OI) predicted.X_OI = *X_OI;
   Frame& frame = AppendFrame(predicted.stamp, keyframe, samples.back().gyro);
   frame.integral = std::make_unique<ImuPreintegration>(noise_, before.gyro_bias, before.accel_bias);
   frame.integral->Append(samples);
@@ -155,23 +158,42 @@ void SlidingWindow::RefreshModels() {
 }
 
 void SlidingWindow::AddSightings(const Frame& frame, const std::vector<Sighting>& sightings) {
+  const bool waits = rig_.depth == features::DepthSource::kNone;  // for motion to tell depths
   for (const Sighting& seen : sightings) {
     auto it = landmarks_.find(seen.track);
     if (it == landmarks_.end()) {
-      const std::optional<std::size_t> slot = NewPoint(frame, seen);
-      if (!slot) continue;
-      it = landmarks_.emplace(seen.track, MapPoint{*slot, {}}).first;
+      const std::optional<Vec3> p_O = ByStereo(frame, seen);
+      if ((!p_O && !waits) || free_points_.empty()) continue;
+      MapPoint landmark;
+      landmark.slot = free_points_.back();
+      free_points_.pop_back();
+      if (p_O) Place(landmark, *p_O);
+      it = landmarks_.emplace(seen.track, std::move(landmark)).first;
     }
     Sight sight;
     sight.slot = frame.slot;
     sight.left = std::make_unique<ReprojectionFactor>(frame.pair, false, seen.left);
     if (seen.right) sight.right = std::make_unique<ReprojectionFactor>(frame.pair, true, *seen.right);
     it->second.sights.push_back(std::move(sight));
+    if (it->second.placed) continue;
+    if (const std::optional<Vec3> p_O = ByMotion(it->second)) Place(it->second, *p_O);
   }
 }
 
-std::optional<std::size_t> SlidingWindow::NewPoint(const Frame& frame, const Sighting& seen) {
-  if (!seen.right || free_points_.empty()) return std::nullopt;
+void SlidingWindow::Place(MapPoint& landmark, const Vec3& p_O) {
+  for (int i = 0; i < 3; ++i) point(landmark.slot)[i] = p_O[i];
+  landmark.placed = true;
+}
+
+Transform SlidingWindow::X_OC(const Frame& frame) const {
+  const double t = rig_parameters()[5];
+  const ImuState state = ReadState(frame);
+  const Transform X_OI{state.X_OI.q * Exp(frame.pair.w_I * t), state.X_OI.p + state.v_OI * t};
+  return X_OI * X_IC();
+}
+
+std::optional<Vec3> SlidingWindow::ByStereo(const Frame& frame, const Sighting& seen) const {
+  if (!seen.right) return std::nullopt;
   const double* rig = rig_parameters();
   Transform X_RL = X_RL_;
   const base::Quat eye = Exp(Vec3(rig[3], rig[4], 0.0)).conjugate();
@@ -179,19 +201,39 @@ std::optional<std::size_t> SlidingWindow::NewPoint(const Frame& frame, const Sig
   double depth = features::TriangulatedDepth(X_RL.Inverse(), seen.left, *seen.right);
   if (depth > 0 && depth < config_.min_depth) return std::nullopt;
   if (depth <= 0 || depth > config_.max_depth) depth = config_.max_depth;
-  const ImuState state = ReadState(frame);
-  const double t = rig[5];
-  const Transform X_OI{state.X_OI.q * Exp(frame.pair.w_I * t), state.X_OI.p + state.v_OI * t};
-  const Vec3 p_O = X_OI * X_IC() * Vec3(depth * seen.left.homogeneous());
-  const std::size_t slot = free_points_.back();
-  free_points_.pop_back();
-  for (int i = 0; i < 3; ++i) point(slot)[i] = p_O[i];
-  return slot;
+  return X_OC(frame) * Vec3(depth * seen.left.homogeneous());
+}
+
+std::optional<Vec3> SlidingWindow::ByMotion(const MapPoint& landmark) const {
+  if (landmark.sights.size() < 2) return std::nullopt;
+  base::Mat3 A = base::Mat3::Zero();
+  Vec3 b = Vec3::Zero();
+  std::vector<Transform> cameras;
+  Vec3 first = Vec3::Zero();
+  double widest = 0.0;
+  for (const Sight& sight : landmark.sights) {
+    cameras.push_back(X_OC(*FrameOf(sight.slot)));
+    const Vec3 ray = cameras.back().q * Vec3(sight.left->seen().homogeneous().normalized());
+    if (cameras.size() == 1) first = ray;
+    widest = std::max(widest, first.cross(ray).norm());
+    const base::Mat3 across = base::Mat3::Identity() - ray * ray.transpose();
+    A += across;
+    b += across * cameras.back().p;
+  }
+  if (widest < config_.min_ray_angle) return std::nullopt;
+  const Vec3 p_O = A.ldlt().solve(b);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const Vec3 p_C = cameras[i].Inverse() * p_O;
+    if (!(p_C.z() > config_.min_depth && p_C.z() < config_.max_depth)) return std::nullopt;
+    const base::Vec2 error = p_C.head<2>() / p_C.z() - landmark.sights[i].left->seen();
+    if (error.norm() * rig_.left.fx > config_.outlier_gate) return std::nullopt;
+  }
+  return p_O;
 }
 
 std::optional<Vec3> SlidingWindow::Landmark(std::uint64_t track) const {
   const auto it = landmarks_.find(track);
-  if (it == landmarks_.end()) return std::nullopt;
+  if (it == landmarks_.end() || !it->second.placed) return std::nullopt;
   return Vec3At(point(it->second.slot));
 }
 
@@ -238,7 +280,7 @@ void SlidingWindow::DropUnusable() {
   for (auto it = landmarks_.begin(); it != landmarks_.end();) {
     const auto next = std::next(it);
     const double* p = point(it->second.slot);
-    std::erase_if(it->second.sights, [this, p](const Sight& s) { return !SightError(s, p); });
+    if (it->second.placed) std::erase_if(it->second.sights, [this, p](const Sight& s) { return !SightError(s, p); });
     if (it->second.sights.empty()) ErasePoint(it);
     it = next;
   }

@@ -23,7 +23,7 @@ void SlidingWindow::RelineariseFactors() {
       frame.integral->Relinearise(state.gyro_bias, state.accel_bias);
       frame.factor.reset();
     }
-    if (!frame.factor) frame.factor = std::make_unique<ImuFactor>(*frame.integral);
+    if (!frame.factor) frame.factor = std::make_unique<ImuFactor>(*frame.integral, gravity_);
   }
 }
 
@@ -90,6 +90,7 @@ void SlidingWindow::MarginaliseOldest() {
   std::vector<std::map<std::uint64_t, MapPoint>::iterator> consumed;
   for (auto it = landmarks_.begin(); it != landmarks_.end(); ++it) {
     const auto& sights = it->second.sights;
+    if (!it->second.placed) continue;
     if (std::none_of(sights.begin(), sights.end(), [oldest](const Sight& s) { return s.slot == oldest; })) continue;
     const bool followed = !std::all_of(sights.begin(), sights.end(), is_settled);
     if (followed) {
@@ -126,7 +127,7 @@ void SlidingWindow::MarginaliseOldest() {
   }
   system.Allocate();
   system.Add(prior_);
-  if (!next.factor) frames_[1]->factor = std::make_unique<ImuFactor>(*next.integral);
+  if (!next.factor) frames_[1]->factor = std::make_unique<ImuFactor>(*next.integral, gravity_);
   system.Add(*next.factor, std::array{pose_0, speed_0, pose_1, speed_1});
   for (const auto& it : consumed) {
     std::vector<NormalEquations::Sight> sights;

@@ -19,4 +19,12 @@ std::vector<std::optional<double>> KeypointDepths(const StereoRig& rig, const Im
                                                   std::span<const base::Vec2> pixels,
                                                   const StereoTrackerConfig& config = {});
 
+/// Depth (m) at a pixel of a depth image; none where too little around it was measured, or an edge of depth runs by.
+/// `pixel` lies in the image.
+std::optional<double> DepthAt(const DepthImage& depth, const base::Vec2& pixel);
+
+/// The same from whatever the rig measures depth with; all none where that is nothing.
+std::vector<std::optional<double>> KeypointDepths(const StereoRig& rig, const Image& left, const Image& right,
+                                                  const DepthImage& depth, std::span<const base::Vec2> pixels);
+
 }  // namespace alula::stack::features

@@ -11,7 +11,21 @@ StereoRig MakeRig(const Calibration& calibration) {
   if (!calibration.stereo) throw base::InputError("calibration: no stereo pair; stereo odometry needs one");
   const CameraCalibration& left = calibration.cameras.at(static_cast<std::size_t>((*calibration.stereo)[0]));
   const CameraCalibration& right = calibration.cameras.at(static_cast<std::size_t>((*calibration.stereo)[1]));
-  return {left.intrinsics, right.intrinsics, left.X_BC.Inverse() * right.X_BC};
+  return {left.intrinsics, right.intrinsics, left.X_BC.Inverse() * right.X_BC, DepthSource::kStereo};
+}
+
+StereoRig MakeRig(const CameraCalibration& camera, std::optional<double> virtual_baseline) {
+  StereoRig rig;
+  rig.left = rig.right = camera.intrinsics;
+  rig.right.distortion = {};
+  rig.right.model = DistortionModel::kRadialTangential;
+  rig.X_LR.p = Vec3(virtual_baseline.value_or(0.0), 0.0, 0.0);
+  rig.depth = virtual_baseline ? DepthSource::kDepthCamera : DepthSource::kNone;
+  return rig;
+}
+
+Vec2 VirtualRight(const StereoRig& rig, const Vec2& left, double depth) {
+  return {left.x() - rig.X_LR.p.x() / depth, left.y()};
 }
 
 double TriangulatedDepth(const base::Transform& X_LR, const Vec2& left, const Vec2& right) {

@@ -6,6 +6,7 @@
 #include "stack/features/internal/corner_detector.h"
 #include "stack/features/internal/pyramid.h"
 #include "stack/features/internal/stereo_matcher.h"
+#include "stack/features/keypoint_depth.h"
 
 namespace alula::stack::features {
 
@@ -37,11 +38,13 @@ class StereoTracker::Impl {
  public:
   Impl(const StereoRig& rig, const StereoTrackerConfig& config) : rig_(rig), config_(config), matcher_(rig, config) {}
 
-  std::vector<Track> Follow(const Image& left, const Image& right, const Transform& X_RC) {
+  std::vector<Track> Follow(const Image& left, const Image& right, const Transform& X_RC, const DepthImage& depth) {
     left_ = BuildPyramid(left, rig_.left.width, rig_.left.height, true, config_);
-    right_ = BuildPyramid(right, rig_.right.width, rig_.right.height, false, config_);
+    if (rig_.depth == DepthSource::kStereo)
+      right_ = BuildPyramid(right, rig_.right.width, rig_.right.height, false, config_);
+    if (rig_.depth == DepthSource::kDepthCamera) depth_ = depth;
     FollowInTime(X_RC.Inverse());
-    MatchRight();
+    FindDepths();
     std::erase_if(corners_, [this](const Corner& c) { return c.misses > config_.max_misses; });
     return Visible();
   }
@@ -59,7 +62,7 @@ class StereoTracker::Impl {
       corner.track.left = Normalise(rig_.left, corner.track.pixel);
       corners_.push_back(corner);
     }
-    MatchRight(old);
+    FindDepths(old);
     for (Corner& c : corners_) {
       c.reference_pixel = c.track.pixel;
       c.track.reference = c.track.left;
@@ -121,8 +124,24 @@ class StereoTracker::Impl {
     }
   }
 
-  /// Matches what was seen in the left image, from corner `first` on.
-  void MatchRight(std::size_t first = 0) {
+  /// Of what was seen in the left image, from corner `first` on.
+  void FindDepths(std::size_t first = 0) {
+    if (rig_.depth == DepthSource::kStereo) MatchRight(first);
+    if (rig_.depth == DepthSource::kDepthCamera) ReadDepths(first);
+  }
+
+  void ReadDepths(std::size_t first) {
+    for (std::size_t i = first; i < corners_.size(); ++i) {
+      Track& track = corners_[i].track;
+      track.right.reset();
+      if (corners_[i].misses > 0) continue;
+      const std::optional<double> depth = depth_.millimetres ? DepthAt(depth_, track.pixel) : std::nullopt;
+      track.depth = depth.value_or(0.0);
+      if (depth) track.right = VirtualRight(rig_, track.left, *depth);
+    }
+  }
+
+  void MatchRight(std::size_t first) {
     std::vector<std::size_t> index;
     std::vector<StereoMatcher::Query> queries;
     for (std::size_t i = first; i < corners_.size(); ++i) {
@@ -156,6 +175,7 @@ class StereoTracker::Impl {
   StereoTrackerConfig config_;
   StereoMatcher matcher_;
   Pyramid reference_, left_, right_;
+  DepthImage depth_;
   std::vector<Corner> corners_;
   std::uint64_t next_id_ = 1;
   int reference_count_ = 0;
@@ -167,8 +187,9 @@ StereoTracker::~StereoTracker() = default;
 StereoTracker::StereoTracker(StereoTracker&&) noexcept = default;
 StereoTracker& StereoTracker::operator=(StereoTracker&&) noexcept = default;
 
-std::vector<Track> StereoTracker::Follow(const Image& left, const Image& right, const Transform& X_RC) {
-  return impl_->Follow(left, right, X_RC);
+std::vector<Track> StereoTracker::Follow(const Image& left, const Image& right, const Transform& X_RC,
+                                         const DepthImage& depth) {
+  return impl_->Follow(left, right, X_RC, depth);
 }
 std::vector<Track> StereoTracker::MakeReference() { return impl_->MakeReference(); }
 void StereoTracker::Drop(std::span<const std::uint64_t> ids) { impl_->Drop(ids); }

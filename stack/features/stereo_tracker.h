@@ -18,8 +18,8 @@ struct Track {
   std::uint64_t id = 0;
   base::Vec2 pixel = base::Vec2::Zero();      // in the left image
   base::Vec2 left = base::Vec2::Zero();       // normalised, left camera
-  std::optional<base::Vec2> right;            // normalised, right camera
-  double depth = 0.0;                         // m by stereo, 0 where unknown
+  std::optional<base::Vec2> right;            // normalised, right camera (stereo_rig.h: also of a depth camera)
+  double depth = 0.0;                         // m, 0 where unknown
   base::Vec2 reference = base::Vec2::Zero();  // normalised, left camera of the reference pair
   int age = 0;                                // images since the corner was found
 };
@@ -35,8 +35,10 @@ class StereoTracker {
   StereoTracker& operator=(StereoTracker&&) noexcept;
 
   /// Corners of the reference found in this pair. `X_RC`: predicted pose of the new left camera in the reference left
-  /// camera. Throws base::InputError for images that are not 8-bit grey or not of the calibrated size.
-  std::vector<Track> Follow(const Image& left, const Image& right, const base::Transform& X_RC);
+  /// camera. Of `right` and `depth` only what the rig measures depth with is looked at. Throws base::InputError for
+  /// images that are not 8-bit grey or not of the calibrated size.
+  std::vector<Track> Follow(const Image& left, const Image& right, const base::Transform& X_RC,
+                            const DepthImage& depth = {});
 
   /// Makes the newest pair the reference, finds corners in empty cells of the grid and matches them left to right.
   /// Returns all corners of the new reference.

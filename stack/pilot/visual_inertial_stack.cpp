@@ -87,8 +87,8 @@ struct Workshop {
     return result;
   }
 
-  estimation::StereoInertialOdometry odometry;  // strand "odometry"
-  mapping::StereoDepth depth;                   // strand "mapping", as the next two
+  estimation::Odometry odometry;  // strand "odometry"
+  mapping::StereoDepth depth;     // strand "mapping", as the next two
   mapping::OccupancyMap map;
   perception::GateFinder gates;
   std::unique_ptr<planning::GlobalPlanner> planner;  // strand "planning"

@@ -2,21 +2,23 @@
 
 #include <utility>
 
-#include "base/error.h"
+#include "stack/interface/grey.h"
 
 namespace alula::stack::slam {
 namespace {
 
-constexpr std::size_t kPairsWaiting = 8;  // that may wait for their second eye
+constexpr std::size_t kFramesWaiting = 8;  // that may wait for their missing parts
 
 }  // namespace
 
 FrameAssembler::FrameAssembler(const Calibration& calibration) {
-  if (!calibration.stereo) throw base::InputError("calibration: no stereo pair of cameras");
-  if (!calibration.imu) throw base::InputError("calibration: no IMU");
-  left_ = calibration.cameras.at(static_cast<std::size_t>((*calibration.stereo)[0]));
-  right_ = calibration.cameras.at(static_cast<std::size_t>((*calibration.stereo)[1]));
-  imu_sensor_ = calibration.imu->sensor;
+  const estimation::SensorSet set = estimation::ChooseSensors(calibration, {});
+  const auto camera = [&calibration](int i) { return calibration.cameras.at(static_cast<std::size_t>(i)); };
+  left_ = camera(set.picture);
+  if (set.right) right_ = camera(*set.right);
+  if (set.depth) depth_ = camera(*set.depth);
+  if (depth_ && !features::Registered(*depth_, left_)) registration_.emplace(*depth_, left_);
+  if (set.imu) imu_sensor_ = set.imu->sensor;
 }
 
 void FrameAssembler::Add(const Measurement& measurement) {
@@ -25,34 +27,41 @@ void FrameAssembler::Add(const Measurement& measurement) {
       imu_.push_back({measurement.captured, imu->angular_velocity, imu->specific_force});
     return;
   }
-  const auto* image = std::get_if<Image>(&measurement.data);
-  if (image == nullptr || !IsEye(measurement.sensor)) return;
-  Pair& pair = pairs_[measurement.seq];
-  if (measurement.sensor == left_.sensor) {
-    pair.left = *image;
-    pair.stamp = measurement.captured + left_.time_offset;
-  } else {
-    pair.right = *image;
+  if (const auto* depth = std::get_if<DepthImage>(&measurement.data)) {
+    if (depth_ && measurement.sensor == depth_->sensor)
+      frames_[measurement.seq].depth = registration_ ? (*registration_)(*depth) : *depth;
   }
-  while (pairs_.size() > kPairsWaiting) pairs_.erase(pairs_.begin());
+  const auto* image = std::get_if<Image>(&measurement.data);
+  if (image != nullptr && measurement.sensor == left_.sensor) {
+    Parts& parts = frames_[measurement.seq];
+    parts.left = ToGrey(*image);
+    parts.stamp = measurement.captured + left_.time_offset;
+  } else if (image != nullptr && right_ && measurement.sensor == right_->sensor) {
+    frames_[measurement.seq].right = ToGrey(*image);
+  }
+  while (frames_.size() > kFramesWaiting) frames_.erase(frames_.begin());
+}
+
+bool FrameAssembler::Whole(const Parts& parts) const {
+  return parts.left && (!right_ || parts.right) && (!depth_ || parts.depth);
 }
 
 std::optional<estimation::FrameInput> FrameAssembler::Next() {
-  while (!pairs_.empty()) {
-    const auto& [seq, pair] = *pairs_.begin();
-    if (!pair.left || !pair.right) {
-      const Pair& newest = pairs_.rbegin()->second;
-      if (pairs_.size() < 2 || !newest.left || !newest.right) return std::nullopt;
-      pairs_.erase(pairs_.begin());
+  while (!frames_.empty()) {
+    const auto& [seq, parts] = *frames_.begin();
+    if (!Whole(parts)) {
+      if (frames_.size() < 2 || !Whole(frames_.rbegin()->second)) return std::nullopt;
+      frames_.erase(frames_.begin());
       continue;
     }
-    if (imu_.empty() || imu_.back().time < pair.stamp) return std::nullopt;
-    estimation::FrameInput frame{seq, pair.stamp, *pair.left, *pair.right, {}};
+    if (imu_sensor_ && (imu_.empty() || imu_.back().time < parts.stamp)) return std::nullopt;
+    estimation::FrameInput frame{seq, parts.stamp, *parts.left, parts.right.value_or(Image{}),
+                                 parts.depth.value_or(DepthImage{})};
     for (const estimation::TimedImu& sample : imu_) {
       frame.imu.push_back(sample);
-      if (sample.time >= pair.stamp) break;
+      if (sample.time >= parts.stamp) break;
     }
-    pairs_.erase(pairs_.begin());
+    frames_.erase(frames_.begin());
     return frame;
   }
   return std::nullopt;

@@ -37,7 +37,7 @@ struct Keyframe {
   base::Time stamp;
   base::Transform X_OB;  // as the odometry had it when the keyframe was taken
   base::Transform X_MB;
-  base::Vec3 up_B = base::Vec3::UnitZ();
+  std::optional<base::Vec3> up_B = base::Vec3::UnitZ();  // none where no IMU tells
   PlaceView view;
   std::vector<std::optional<base::Vec2>> right;  // of each point, normalised, as the right eye saw it
   std::vector<int> landmarks;                    // of each point; −1: none

@@ -25,7 +25,7 @@ MapBundle MakeBundle(const Map& map, const std::vector<int>& moving, const std::
     const bool moves = std::binary_search(moving.begin(), moving.end(), keyframe.id);
     made.bundle.poses.push_back({keyframe.X_MB, !moves});
     if (!moves) continue;
-    made.bundle.verticals.push_back({static_cast<int>(i), keyframe.up_B, config.adjust.vertical});
+    if (keyframe.up_B) made.bundle.verticals.push_back({static_cast<int>(i), *keyframe.up_B, config.adjust.vertical});
     for (const int l : keyframe.landmarks) {
       if (l >= 0) landmarks.insert(l);
     }

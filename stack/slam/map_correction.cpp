@@ -29,6 +29,10 @@ Transform UprightOffset(const Transform& X_NB, const Transform& X_MB) {
   return {q, X_NB.p - q * X_MB.p};
 }
 
+Transform OffsetOf(const Keyframe& keyframe, const Transform& X_NB, const Transform& X_MB) {
+  return keyframe.up_B ? UprightOffset(X_NB, X_MB) : X_NB * X_MB.Inverse();
+}
+
 void JoinPart(Map& map, int part, int into, const Transform& X_IP) {
   for (const auto& keyframe : map.keyframes) {
     if (!keyframe || keyframe->part != part) continue;
@@ -53,7 +57,7 @@ void SpreadLoop(Map& map, const Loop& loop, const MapConfig& config) {
     const int i = static_cast<int>(graph.poses.size());
     index[keyframe->id] = i;
     graph.poses.push_back({keyframe->X_MB, keyframe->id == map.anchors[static_cast<std::size_t>(part)]});
-    graph.verticals.push_back({i, keyframe->X_MB.q.conjugate() * Vec3::UnitZ(), kHeldTilt});
+    if (keyframe->up_B) graph.verticals.push_back({i, keyframe->X_MB.q.conjugate() * Vec3::UnitZ(), kHeldTilt});
   }
   for (const auto& [id, to] : index) {
     const Keyframe& keyframe = map.keyframe(id);

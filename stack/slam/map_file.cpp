@@ -16,7 +16,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "a map's file is little-endian");
 
 constexpr std::string_view kMagic = "ALULAMAP";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 struct Writer {
   static constexpr bool kReads = false;

@@ -69,9 +69,10 @@ KeyframeReport Mapper::Add(KeyframeInput input) {
   keyframe.X_OB = input.X_OB;
   keyframe.X_MB = X_MO_ * input.X_OB;
   map_.eyes = input.eyes;
-  keyframe.up_B = input.X_OB.q.conjugate() * Vec3::UnitZ();
+  keyframe.up_B.reset();
+  if (input.upright) keyframe.up_B = input.X_OB.q.conjugate() * Vec3::UnitZ();
   keyframe.view = std::move(input.view);
-  keyframe.view.up_C = map_.eyes.X_BL.q.conjugate() * keyframe.up_B;
+  if (keyframe.up_B) keyframe.view.up_C = map_.eyes.X_BL.q.conjugate() * *keyframe.up_B;
   keyframe.right = SeenByRightEye(keyframe.view, rig_.X_LR);
   keyframe.landmarks.assign(keyframe.view.points.size(), -1);
   TakeMotions(input, keyframe);
@@ -96,7 +97,7 @@ KeyframeReport Mapper::Add(KeyframeInput input) {
     AdjustAround(keyframe.id);
   }
   if (places_) LookForLoop(keyframe, report);
-  X_MO_ = report.X_MO = UprightOffset(keyframe.X_MB, keyframe.X_OB);
+  X_MO_ = report.X_MO = OffsetOf(keyframe, keyframe.X_MB, keyframe.X_OB);
   DropPoorLandmarks(keyframe.id);
   DropRedundantKeyframes(keyframe.id);
   return report;
@@ -118,7 +119,7 @@ void Mapper::TakeMotions(const KeyframeInput& input, Keyframe& keyframe) {
         Vec3::Constant(a.motion_angle + a.motion_angle_drift * time);
     to->from_previous = motion;
     to->previous = from_id;
-    to->up_B = X_OT.q.conjugate() * Vec3::UnitZ();
+    if (to->up_B) to->up_B = X_OT.q.conjugate() * Vec3::UnitZ();
     if (to == &keyframe) keyframe.X_MB = from.X_MB * motion.X_FT;
     X_OT = it->X_OB;
     to = &map_.keyframe(from_id);
@@ -180,7 +181,7 @@ std::optional<Transform> Mapper::Refine(const Keyframe& keyframe, const Transfor
   Bundle bundle;
   bundle.eyes = map_.eyes;
   bundle.poses.push_back({X_MB, false});
-  bundle.verticals.push_back({0, keyframe.up_B, config_.adjust.vertical});
+  if (keyframe.up_B) bundle.verticals.push_back({0, *keyframe.up_B, config_.adjust.vertical});
   if (with_motion && keyframe.from_previous) {
     const Keyframe& before = map_.keyframe(keyframe.previous);
     bundle.poses.push_back({before.X_MB, true});

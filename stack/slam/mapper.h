@@ -21,8 +21,9 @@ struct KeyframeInput {
   std::uint32_t seq = 0;
   base::Time stamp;
   base::Transform X_OB;
-  Eyes eyes;       // as refined so far
-  PlaceView view;  // its depths are those of the nominal rig
+  Eyes eyes;            // as refined so far
+  PlaceView view;       // its depths are those of the nominal rig
+  bool upright = true;  // the odometry knows the vertical
   /// Keyframes before it as the odometry has them now, oldest first, the one before it last: the motion since then.
   /// Empty where the odometry has lost its way in between.
   std::vector<estimation::KeyframePose> window;

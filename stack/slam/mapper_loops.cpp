@@ -53,7 +53,7 @@ std::optional<Mapper::Claim> Mapper::Examine(const Keyframe& keyframe, const Kno
   }
   Claim claim;
   claim.loop = {then.id, keyframe.id, then.X_MB.Inverse() * X_MB};
-  claim.X_NM = UprightOffset(X_MB, keyframe.X_MB);
+  claim.X_NM = OffsetOf(keyframe, X_MB, keyframe.X_MB);
   claim.part = then.part;
   if (AngleBetween(X_MB.q, claim.X_NM.q * keyframe.X_MB.q) > config_.loop.tilt) return std::nullopt;
   if (claim.part == keyframe.part && !WithinDrift(keyframe, claim)) return std::nullopt;
@@ -70,7 +70,7 @@ bool Mapper::WithinDrift(const Keyframe& keyframe, const Claim& claim) const {
   const double time = (keyframe.stamp - map_.keyframe(claim.loop.then).stamp).Seconds();
   const double moved = (claim.X_NM * keyframe.X_MB.p - keyframe.X_MB.p).norm();
   return moved < c.drift_position + c.drift_share * way &&
-         std::abs(base::Yaw(claim.X_NM.q)) < c.drift_angle + c.drift_angle_rate * time;
+         base::Log(claim.X_NM.q).norm() < c.drift_angle + c.drift_angle_rate * time;
 }
 
 bool Mapper::Confirmed(const Keyframe& keyframe, const Claim& claim) {

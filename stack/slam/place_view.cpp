@@ -6,8 +6,8 @@
 
 namespace alula::stack::slam {
 
-PlaceView ViewOfStereoPair(const features::StereoRig& rig, const Image& left, const Image& right,
-                           const features::OrbConfig& config) {
+PlaceView ViewOf(const features::StereoRig& rig, const Image& left, const Image& right,
+                 const features::OrbConfig& config, const DepthImage& depth) {
   PlaceView view;
   view.focal = 0.5 * (rig.left.fx + rig.left.fy);
   view.focal_baseline = view.focal * rig.X_LR.p.norm();
@@ -22,7 +22,7 @@ PlaceView ViewOfStereoPair(const features::StereoRig& rig, const Image& left, co
     view.points.push_back(point);
     pixels.push_back(k.pixel);
   }
-  const std::vector<std::optional<double>> depths = features::KeypointDepths(rig, left, right, pixels);
+  const std::vector<std::optional<double>> depths = features::KeypointDepths(rig, left, right, depth, pixels);
   for (std::size_t i = 0; i < depths.size(); ++i) {
     if (depths[i]) view.points[i].p_C = *depths[i] * view.points[i].normalised.homogeneous();
   }

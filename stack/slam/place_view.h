@@ -42,9 +42,9 @@ struct PlaceView {
   std::optional<base::Vec3> up_C{};
 };
 
-/// What a stereo pair shows: ORB keypoints of the left image with depths by stereo; no lines. Throws base::InputError
-/// as DetectOrb and KeypointDepths do.
-PlaceView ViewOfStereoPair(const features::StereoRig& rig, const Image& left, const Image& right,
-                           const features::OrbConfig& config);
+/// What a frame shows: ORB keypoints of the left image with the depths that the rig measures; no lines. Throws
+/// base::InputError as DetectOrb and KeypointDepths do.
+PlaceView ViewOf(const features::StereoRig& rig, const Image& left, const Image& right,
+                 const features::OrbConfig& config, const DepthImage& depth = {});
 
 }  // namespace alula::stack::slam

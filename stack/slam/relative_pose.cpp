@@ -7,8 +7,8 @@
 
 #include "base/random.h"
 #include "stack/features/keypoint_grid.h"
+#include "stack/features/pose_solvers.h"
 #include "stack/slam/internal/place_residual.h"
-#include "stack/slam/internal/pose_solvers.h"
 
 namespace alula::stack::slam {
 namespace {
@@ -19,8 +19,8 @@ using base::Transform;
 using base::Vec2;
 using base::Vec3;
 using base::Vec6;
+using features::PointAndRay;
 using internal::PlaceResidual;
-using internal::PointAndRay;
 
 constexpr double kHuber = 1.5;  // σ
 
@@ -92,9 +92,9 @@ std::vector<Transform> Problem::SolveFrom(const std::vector<PointPair>& sample, 
   std::vector<Transform> poses;
   if (gravity_) {
     poses =
-        internal::SolveTwoPoints({points[0], points[1]}, from_a ? *a_.up_C : *b_.up_C, from_a ? *b_.up_C : *a_.up_C);
+        features::SolveTwoPoints({points[0], points[1]}, from_a ? *a_.up_C : *b_.up_C, from_a ? *b_.up_C : *a_.up_C);
   } else {
-    poses = internal::SolveThreePoints(points);
+    poses = features::SolveThreePoints(points);
   }
   if (!from_a) {
     for (Transform& X : poses) X = X.Inverse();

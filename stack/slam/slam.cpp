@@ -4,6 +4,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/error.h"
 #include "base/processor_clock.h"
 #include "stack/slam/mapper.h"
 #include "stack/slam/vocabulary.h"
@@ -13,7 +14,7 @@ namespace alula::stack::slam {
 using base::Transform;
 
 void Describe(base::Description& d, SlamConfig& c) {
-  d.Field("odometry", c.odometry, {.meaning = "stereo-inertial odometry"});
+  d.Field("odometry", c.odometry, {.meaning = "visual odometry, with an IMU or without"});
   d.Field("map", c.map, {.meaning = "keyframes and landmarks"});
 }
 
@@ -21,10 +22,11 @@ class Slam::Impl {
  public:
   Impl(const Calibration& calibration, const SlamConfig& config, const Transform& X_MB_start, Map known)
       : config_(config),
-        rig_(features::MakeRig(calibration)),
-        X_BL_(calibration.cameras.at(static_cast<std::size_t>((*calibration.stereo)[0])).X_BC),
         odometry_(calibration, config.odometry, X_MB_start),
-        mapper_(rig_, config.map, config.map.loop.enabled ? SharedVocabulary() : nullptr, std::move(known)) {}
+        mapper_(rig(), config.map, config.map.loop.enabled ? SharedVocabulary() : nullptr, std::move(known)) {
+    if (config.map.enabled && rig().depth == features::DepthSource::kNone)
+      throw base::InputError("map.enabled: a map needs depth, of a stereo pair or a depth camera; set it to false");
+  }
 
   SlamResult Process(const estimation::FrameInput& frame) {
     SlamResult result;
@@ -60,6 +62,8 @@ class Slam::Impl {
   }
 
  private:
+  const features::StereoRig& rig() const { return odometry_.sensors().rig; }
+
   struct Taught {
     base::Time known;
     Transform X_MO;
@@ -75,9 +79,9 @@ class Slam::Impl {
     input.seq = frame.seq;
     input.stamp = odometry.state.stamp;
     const estimation::NavState& state = odometry.state;
-    const estimation::CalibrationEstimate rig = odometry_.RefinedCalibration();
+    const estimation::CalibrationEstimate refined = odometry_.RefinedCalibration();
     // The shutter opened a little before or after the stamp: the keyframe is the pose of that instant.
-    const double t = rig.time_offset;
+    const double t = refined.time_offset;
     input.X_OB = {(state.X_OB.q * base::Exp(state.w_B * t)).normalized(), state.X_OB.p + state.v_OB * t};
     input.window = odometry.window;
     shutters_.push_back({state.stamp, state.X_OB.Inverse() * input.X_OB});
@@ -87,10 +91,12 @@ class Slam::Impl {
         if (s.stamp == before.stamp) before.X_OB = before.X_OB * s.X_OB;
       }
     }
-    const base::Quat eye = base::Exp({rig.eye_rotation.x(), rig.eye_rotation.y(), 0.0});
-    input.eyes.X_BL = {X_BL_.q * base::Exp(rig.camera_rotation), X_BL_.p};
-    input.eyes.X_LR = Transform{rig_.X_LR.q * eye, rig_.X_LR.p};
-    input.view = ViewOfStereoPair(rig_, frame.left, frame.right, config_.map.orb);
+    const base::Quat eye = base::Exp({refined.eye_rotation.x(), refined.eye_rotation.y(), 0.0});
+    const Transform &X_BL = odometry_.sensors().X_BC, &X_LR = rig().X_LR;
+    input.eyes.X_BL = {X_BL.q * base::Exp(refined.camera_rotation), X_BL.p};
+    input.eyes.X_LR = Transform{X_LR.q * eye, X_LR.p};
+    input.view = ViewOf(rig(), frame.left, frame.right, config_.map.orb, frame.depth);
+    input.upright = odometry_.KnowsVertical();
     X_OB_keyframe_ = input.X_OB;
     const KeyframeReport report = mapper_.Add(std::move(input));
     loops_ += report.loop && !report.joined ? 1 : 0;
@@ -100,9 +106,7 @@ class Slam::Impl {
   }
 
   SlamConfig config_;
-  features::StereoRig rig_;
-  Transform X_BL_;
-  estimation::StereoInertialOdometry odometry_;
+  estimation::Odometry odometry_;
   Mapper mapper_;
   std::deque<Taught> taught_;
   Transform X_MO_;

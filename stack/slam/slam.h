@@ -27,7 +27,7 @@ class Slam {
  public:
   /// `X_MB_start`: position and heading of the body at the start. `known`: a map from before; from when a place of it
   /// is known again on, poses are in its frame. Throws base::InputError where the calibration does not hold what the
-  /// estimator needs.
+  /// estimator needs, and for a map without anything that measures depth.
   Slam(const Calibration& calibration, const SlamConfig& config, const base::Transform& X_MB_start, Map known = {});
   ~Slam();
 

@@ -4,6 +4,7 @@
 
 #include "scenarios/dataset/image_file.h"
 #include "scenarios/dataset/jpeg.h"
+#include "stack/interface/grey.h"
 #include "tests/fuzz/expect.h"
 
 namespace alula::fuzz {
@@ -15,7 +16,7 @@ void ReadJpeg(const std::uint8_t* data, std::size_t size) {
     Expect(image.width > 0 && image.height > 0, "an empty image");
     Expect(image.bytes->size() == static_cast<std::size_t>(image.stride) * static_cast<std::size_t>(image.height),
            "number of bytes");
-    const stack::Image grey = scenarios::dataset::ToGrey(image);
+    const stack::Image grey = stack::ToGrey(image);
     Expect(grey.bytes->size() == static_cast<std::size_t>(grey.width) * static_cast<std::size_t>(grey.height),
            "number of grey bytes");
   });

@@ -11,11 +11,13 @@ namespace alula::stack::estimation {
 /// speed-bias i, pose j, speed-bias j. Residual rows: rotation, velocity, position, gyroscope bias, accelerometer bias.
 class ImuFactor final : public ceres::SizedCostFunction<15, kPoseSize, kSpeedBiasSize, kPoseSize, kSpeedBiasSize> {
  public:
-  explicit ImuFactor(const ImuPreintegration& integral) : integral_(&integral), W_(integral.SqrtInformation()) {}
+  explicit ImuFactor(const ImuPreintegration& integral, const base::Vec3& gravity = {0, 0, -base::kGravity})
+      : integral_(&integral), gravity_(gravity), W_(integral.SqrtInformation()) {}
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
 
  private:
   const ImuPreintegration* integral_;
+  base::Vec3 gravity_;  // m/s², in O
   Mat15 W_;
 };
 

@@ -49,6 +49,8 @@ class ReprojectionFactor final : public ceres::SizedCostFunction<2, kPoseSize, k
       : pair_(&pair), right_(right), seen_(seen) {}
   bool Evaluate(double const* const* parameters, double* residuals, double** jacobians) const override;
 
+  const base::Vec2& seen() const { return seen_; }
+
  private:
   const PairModel* pair_;
   bool right_;

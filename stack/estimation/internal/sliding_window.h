@@ -63,7 +63,8 @@ struct KnownLine {
 };
 
 /// The state, carried forward by the IMU from `from` to the end of `samples` (which begin at from.stamp).
-ImuState Propagate(const ImuState& from, const std::vector<TimedImu>& samples);
+ImuState Propagate(const ImuState& from, const std::vector<TimedImu>& samples,
+                   const base::Vec3& gravity = {0, 0, -base::kGravity});
 
 /// The estimator's window: keyframes and the newest frames, their landmarks, the rig's refinement and a prior that
 /// holds what has left. It knows tracks, not images. One turn: AddFrame → Solve → RejectOutliers → Slide.
@@ -76,14 +77,16 @@ ImuState Propagate(const ImuState& from, const std::vector<TimedImu>& samples);
 class SlidingWindow {
  public:
   SlidingWindow(const features::StereoRig& rig, const base::Transform& X_IC, const ImuNoise& noise,
-                const WindowConfig& config, const LinesConfig& lines = {});
+                const WindowConfig& config, const LinesConfig& lines = {},
+                const base::Vec3& gravity = {0, 0, -base::kGravity});
 
   /// Forgets everything but the rig's refinement and begins with one state.
   void Start(const ImuState& state, const StartSigmas& sigmas, const std::vector<Sighting>& sightings,
              const std::vector<LineSighting>& lines = {});
-  /// Adds a state at the end of `samples`, which begin at the newest state's stamp.
+  /// Adds a state at the end of `samples`, which begin at the newest state's stamp. `X_OI`: where the solution is
+  /// looked for, in place of the samples' prediction.
   void AddFrame(const std::vector<TimedImu>& samples, const std::vector<Sighting>& sightings, bool keyframe,
-                const std::vector<LineSighting>& lines = {});
+                const std::vector<LineSighting>& lines = {}, const std::optional<base::Transform>& X_OI = std::nullopt);
   /// Returns false where the solver failed; the states are as before then.
   bool Solve();
   /// Drops sights that do not fit and returns the tracks that should be followed no more.
@@ -93,7 +96,7 @@ class SlidingWindow {
   ImuState Newest() const;
   /// Keyframes but the newest frame, oldest first.
   std::vector<ImuState> KeyframesBefore() const;
-  /// Position of a track's landmark in O, m.
+  /// Position of a track's landmark in O, m; none as long as nothing has told its depth.
   std::optional<base::Vec3> Landmark(std::uint64_t track) const;
   bool SeenInNewest(std::uint64_t track) const;
   std::vector<KnownLine> Lines() const;
@@ -126,6 +129,7 @@ class SlidingWindow {
   struct MapPoint {
     std::size_t slot = 0;
     std::vector<Sight> sights;
+    bool placed = false;  // its depth is known
   };
 
   struct LineSight {
@@ -161,7 +165,13 @@ class SlidingWindow {
   ImuState ReadState(const Frame& frame) const;
   Frame& AppendFrame(base::Time stamp, bool keyframe, const base::Vec3& gyro);
   void AddSightings(const Frame& frame, const std::vector<Sighting>& sightings);
-  std::optional<std::size_t> NewPoint(const Frame& frame, const Sighting& sighting);
+  void Place(MapPoint& landmark, const base::Vec3& p_O);
+  /// Where both eyes see a landmark.
+  std::optional<base::Vec3> ByStereo(const Frame& frame, const Sighting& seen) const;
+  /// The point nearest to all rays of a landmark (least squares), as soon as they make an angle.
+  std::optional<base::Vec3> ByMotion(const MapPoint& landmark) const;
+  /// Left camera at a frame's exposure.
+  base::Transform X_OC(const Frame& frame) const;
   void RefreshModels();
   void RelineariseFactors();
   void DropUnusable();
@@ -169,7 +179,7 @@ class SlidingWindow {
   void EraseSights(std::size_t slot);
   void RemoveFrame(std::size_t index);
   void MarginaliseOldest();
-  bool UsesPoint(const MapPoint& p) const { return p.sights.size() >= 2; }
+  bool UsesPoint(const MapPoint& p) const { return p.placed && p.sights.size() >= 2; }
   const Frame* FrameOf(std::size_t slot) const;
   /// Largest error of a sight at the current estimate, px; none where it lies behind the camera.
   std::optional<double> SightError(const Sight& sight, const double* landmark) const;
@@ -177,6 +187,7 @@ class SlidingWindow {
   features::StereoRig rig_;
   base::Transform X_IC_, X_RL_;
   ImuNoise noise_;
+  base::Vec3 gravity_;  // m/s², in O
   WindowConfig config_;
   LinesConfig lines_config_;
   std::size_t max_points_, max_lines_;

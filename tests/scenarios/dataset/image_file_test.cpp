@@ -8,6 +8,7 @@
 
 #include "scenarios/dataset/jpeg.h"
 #include "scenarios/dataset/png.h"
+#include "stack/interface/grey.h"
 #include "tests/scenarios/dataset/jpeg_encoder.h"
 #include "tests/scenarios/dataset/synthetic.h"
 #include "tests/scenarios/temporary_folder.h"
@@ -82,7 +83,7 @@ TEST(ImageFile, IsWhatItsBytesSay) {
 
 TEST(ToGrey, IsTheLuma) {
   const stack::Image colour = testing::RandomImage(31, 17, stack::PixelFormat::kRgb8, 4);
-  const stack::Image grey = ToGrey(colour);
+  const stack::Image grey = stack::ToGrey(colour);
   ASSERT_EQ(grey.format, stack::PixelFormat::kGrey8);
   EXPECT_EQ(grey.stride, 31);
   for (int v = 0; v < 17; ++v) {
@@ -92,7 +93,7 @@ TEST(ToGrey, IsTheLuma) {
     }
   }
   const stack::Image white = testing::RandomImage(2, 2, stack::PixelFormat::kGrey8, 4);
-  EXPECT_EQ(ToGrey(white).bytes, white.bytes);
+  EXPECT_EQ(stack::ToGrey(white).bytes, white.bytes);
   // Grey stays what it is through three equal channels.
   for (int level = 0; level < 256; ++level) {
     stack::Image flat;
@@ -100,7 +101,7 @@ TEST(ToGrey, IsTheLuma) {
     flat.width = flat.height = 1;
     flat.stride = 3;
     flat.bytes = std::make_shared<const std::vector<std::uint8_t>>(3, static_cast<std::uint8_t>(level));
-    EXPECT_EQ(ToGrey(flat).Row(0)[0], level);
+    EXPECT_EQ(stack::ToGrey(flat).Row(0)[0], level);
   }
 }
 

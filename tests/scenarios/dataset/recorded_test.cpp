@@ -11,9 +11,10 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/dataset/depth_registration.h"
 #include "scenarios/dataset/image_file.h"
 #include "scenarios/dataset/layouts.h"
+#include "stack/features/depth_registration.h"
+#include "stack/interface/grey.h"
 
 namespace alula::scenarios::dataset {
 namespace {
@@ -114,7 +115,7 @@ TEST(RecordedTum, ReadsARoom) {
     EXPECT_EQ(recording.depth->of_picture[k], k);
     const stack::Image image = LoadImage(recording.images[0][k], cameras[0]);
     EXPECT_EQ(image.format, stack::PixelFormat::kRgb8);
-    EXPECT_EQ(ToGrey(image).bytes->size(), 640u * 480u);
+    EXPECT_EQ(stack::ToGrey(image).bytes->size(), 640u * 480u);
     // A Kinect sees 0.4 to 8 m; here a desk at 1 to 3 m, and most of the picture.
     std::vector<std::uint16_t> mm = *LoadDepth(recording.images[1][k], cameras[1], 1000).millimetres;
     mm.erase(std::remove(mm.begin(), mm.end(), std::uint16_t{0}), mm.end());
@@ -140,11 +141,11 @@ int NextDepth(const stack::DepthImage& depth, int u, int v, int du, int dv) {
 double GradientAtRims(const Recording& recording) {
   constexpr int kBorder = 12;
   const auto& cameras = recording.calibration.cameras;
-  const DepthRegistration into_picture(cameras[1], cameras[0]);
+  const stack::features::DepthRegistration into_picture(cameras[1], cameras[0]);
   double sum = 0;
   int rims = 0;
   for (std::size_t k = 0; k < recording.images[0].size(); k += 28) {
-    const stack::Image grey = ToGrey(LoadImage(recording.images[0][k], cameras[0]));
+    const stack::Image grey = stack::ToGrey(LoadImage(recording.images[0][k], cameras[0]));
     const stack::DepthImage depth =
         into_picture(LoadDepth(recording.images[1][k], cameras[1], recording.depth->values_per_metre));
     for (int v = kBorder; v < grey.height - kBorder; ++v) {
@@ -169,7 +170,7 @@ TEST(RecordedTum, DepthIsDrawnOntoThePicture) {
   if (!folder) GTEST_SKIP() << "ALULA_DATA is not set: no rgbd_room";
   const double nominal = GradientAtRims(OpenRecording(*folder));
   Recording fitted = OpenRecording(*folder, "docs/examples/recordings/seven_scenes_camera.yaml");
-  ASSERT_FALSE(Registered(fitted.calibration.cameras[0], fitted.calibration.cameras[1]));
+  ASSERT_FALSE(stack::features::Registered(fitted.calibration.cameras[0], fitted.calibration.cameras[1]));
   const double right = GradientAtRims(fitted);
   std::printf("gradient at rims of depth: %.1f with camera.yaml, %.1f with the fitted calibration\n", nominal, right);
   EXPECT_GT(right, 1.5 * nominal);

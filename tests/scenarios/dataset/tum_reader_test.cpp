@@ -6,10 +6,10 @@
 #include <fstream>
 
 #include "scenarios/dataset/dataset_writer.h"
-#include "scenarios/dataset/depth_registration.h"
 #include "scenarios/dataset/image_file.h"
 #include "scenarios/dataset/layouts.h"
 #include "scenarios/dataset/png.h"
+#include "stack/features/depth_registration.h"
 #include "tests/scenarios/dataset/jpeg_encoder.h"
 #include "tests/scenarios/dataset/synthetic.h"
 #include "tests/scenarios/temporary_folder.h"
@@ -80,7 +80,7 @@ TEST(TumReader, ReadsWhatTheWriterWrote) {
   const stack::DepthImage first =
       LoadDepth(back.images[1][0], back.calibration.cameras[1], back.depth->values_per_metre);
   EXPECT_EQ(*first.millimetres, *Depth(37, 16, 0).millimetres);
-  EXPECT_FALSE(Registered(back.calibration.cameras[0], back.calibration.cameras[1]));
+  EXPECT_FALSE(stack::features::Registered(back.calibration.cameras[0], back.calibration.cameras[1]));
 }
 
 /// Three JPEG pictures and two depth images of 4x3 pixels, with a camera.yaml.
@@ -112,7 +112,7 @@ TEST(TumReader, ReadsJpegAndACameraYaml) {
   EXPECT_EQ(cameras[0].intrinsics.fy, 6);
   EXPECT_EQ(cameras[0].rate, (base::Rate{30, 1}));
   EXPECT_EQ(cameras[0].kind, stack::CameraKind::kColour);
-  EXPECT_TRUE(Registered(cameras[0], cameras[1]));
+  EXPECT_TRUE(stack::features::Registered(cameras[0], cameras[1]));
   EXPECT_EQ(recording.depth->of_picture, (std::vector<std::optional<std::size_t>>{0, std::nullopt, 1}));
   EXPECT_EQ(LoadImage(recording.images[0][1], cameras[0]).format, stack::PixelFormat::kRgb8);
   EXPECT_EQ(LoadDepth(recording.images[1][0], cameras[1], recording.depth->values_per_metre).millimetres->at(5), 1234);
@@ -137,7 +137,7 @@ TEST(TumReader, TheDepthCameraMayBeAnother) {
   EXPECT_EQ(cameras[1].intrinsics.distortion[0], 0);
   // 25 mm to the left of the colour camera, in B's axes.
   EXPECT_LT((cameras[1].X_BC.p - Vec3(0.002, 0.025, -0.001)).norm(), 1e-14);
-  EXPECT_FALSE(Registered(cameras[0], cameras[1]));
+  EXPECT_FALSE(stack::features::Registered(cameras[0], cameras[1]));
 }
 
 TEST(TumReader, AnotherCalibrationMayBeGiven) {

@@ -44,8 +44,7 @@ class Photographer {
   Keyframe Take(const base::Transform& X_WC) {
     Keyframe keyframe{name_, X_WC, {}};
     const stack::features::StereoRig rig = Rig();
-    keyframe.view =
-        stack::slam::ViewOfStereoPair(rig, Picture(rig.left, X_WC), Picture(rig.right, X_WC * rig.X_LR), {});
+    keyframe.view = stack::slam::ViewOf(rig, Picture(rig.left, X_WC), Picture(rig.right, X_WC * rig.X_LR), {});
     // The vertical as an IMU knows it.
     keyframe.view.up_C =
         base::Exp(0.5 * kDegree * random_.GaussianVec3()) * base::Vec3(X_WC.q.conjugate() * base::Vec3::UnitZ());

@@ -26,7 +26,7 @@ TEST(Euroc, StandsStillWhileRotorsSpinUp) {
   noise.gyro_range = 7.8;
   noise.accelerometer_range = 176;
   const base::Duration epoch = recording.images[0].front().captured - Time{};
-  StereoInertialOdometry odometry(calibration, {}, {});
+  Odometry odometry(calibration, {}, {});
   std::size_t next = 0;
   std::optional<Vec3> first;
   double drift = 0.0, speed = 0.0;

@@ -63,7 +63,7 @@ class Standing : public ::testing::Test {
     }
     return odometry.Process(input);
   }
-  StereoInertialOdometry odometry;
+  Odometry odometry;
   Image left, right;
   base::RandomStream random{3, "test/standing"};
   std::uint32_t seq = 0;
@@ -136,7 +136,7 @@ TEST_F(Standing, IgnoresAnImageThatIsNotNewer) {
 TEST(Odometry, GivesTheSameBitsTwice) {
   const auto run = [] {
     base::RollingHash hash;
-    StereoInertialOdometry odometry(TrueCalibration(), {}, {});
+    Odometry odometry(TrueCalibration(), {}, {});
     const Image left = Wall(0), right = Wall(12);
     for (int i = 0; i < 60; ++i) {
       FrameInput input;

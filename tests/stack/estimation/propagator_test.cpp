@@ -89,11 +89,11 @@ TEST(StaticInitialiser, FindsTiltHeadingAndGyroscopeBias) {
 TEST(Odometry, RefusesACalibrationWithoutStereoOrImu) {
   Calibration c = TrueCalibration();
   c.imu.reset();
-  EXPECT_THROW(StereoInertialOdometry(c, {}, {}), base::InputError);
+  EXPECT_THROW(Odometry(c, {}, {}), base::InputError);
   EXPECT_THROW(ImuPropagator{c}, base::InputError);
   c = TrueCalibration();
   c.stereo.reset();
-  EXPECT_THROW(StereoInertialOdometry(c, {}, {}), base::InputError);
+  EXPECT_THROW(Odometry(c, {}, {}), base::InputError);
 }
 
 }  // namespace

@@ -61,7 +61,7 @@ Places Load(const std::filesystem::path& folder) {
   places.X_BC = left.X_BC;
   for (std::size_t i = 0; i < 4; ++i) {
     const std::string end = "_img_" + std::to_string(i) + ".png";
-    places.views[i] = ViewOfStereoPair(rig, Picture(folder / ("left" + end)), Picture(folder / ("right" + end)), {});
+    places.views[i] = ViewOf(rig, Picture(folder / ("left" + end)), Picture(folder / ("right" + end)), {});
     const Transform X_WC = kPoses[i] * left.X_BC;
     places.views[i].up_C = X_WC.q.conjugate() * Vec3::UnitZ();
   }

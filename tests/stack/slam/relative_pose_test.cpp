@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "stack/features/pose_solvers.h"
 #include "stack/slam/internal/place_residual.h"
-#include "stack/slam/internal/pose_solvers.h"
 
 namespace alula::stack::slam {
 namespace {
@@ -114,9 +114,9 @@ TEST(PoseSolvers, GiveThePoseAmongTheirAnswers) {
   base::RandomStream random(1, "test/solvers");
   for (int i = 0; i < 200; ++i) {
     const Transform X_TS{base::Exp(0.8 * random.GaussianVec3()), 0.5 * random.GaussianVec3()};
-    std::array<internal::PointAndRay, 3> points;
+    std::array<features::PointAndRay, 3> points;
     bool front = true;
-    for (internal::PointAndRay& p : points) {
+    for (features::PointAndRay& p : points) {
       p.p = X_TS.Inverse() * Vec3(random.Uniform(-2, 2), random.Uniform(-2, 2), random.Uniform(1, 6));
       const Vec3 q = X_TS * p.p;
       front = front && q.z() > 0;
@@ -129,8 +129,8 @@ TEST(PoseSolvers, GiveThePoseAmongTheirAnswers) {
       return best;
     };
     ASSERT_TRUE(front);
-    EXPECT_LT(nearest(internal::SolveThreePoints(points)), 1e-4) << i;
-    EXPECT_LT(nearest(internal::SolveTwoPoints({points[0], points[1]}, up_S, up_T)), 1e-6) << i;
+    EXPECT_LT(nearest(features::SolveThreePoints(points)), 1e-4) << i;
+    EXPECT_LT(nearest(features::SolveTwoPoints({points[0], points[1]}, up_S, up_T)), 1e-6) << i;
   }
 }
 

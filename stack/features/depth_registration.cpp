@@ -1,4 +1,4 @@
-#include "scenarios/dataset/depth_registration.h"
+#include "stack/features/depth_registration.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,17 +6,17 @@
 #include "base/error.h"
 #include "stack/interface/camera_model.h"
 
-namespace alula::scenarios::dataset {
+namespace alula::stack::features {
 
-bool Registered(const stack::CameraCalibration& a, const stack::CameraCalibration& b) {
-  const stack::CameraIntrinsics &x = a.intrinsics, &y = b.intrinsics;
+bool Registered(const CameraCalibration& a, const CameraCalibration& b) {
+  const CameraIntrinsics &x = a.intrinsics, &y = b.intrinsics;
   constexpr double kSame = 1e-9;  // m and rad: what turning the frames about leaves of the identity
   return x.width == y.width && x.height == y.height && x.fx == y.fx && x.fy == y.fy && x.cx == y.cx && x.cy == y.cy &&
          x.distortion == y.distortion && x.model == y.model && (a.X_BC.p - b.X_BC.p).norm() < kSame &&
          base::Log(a.X_BC.q.conjugate() * b.X_BC.q).norm() < kSame;
 }
 
-DepthRegistration::DepthRegistration(const stack::CameraCalibration& depth, const stack::CameraCalibration& into)
+DepthRegistration::DepthRegistration(const CameraCalibration& depth, const CameraCalibration& into)
     : into_(into.intrinsics),
       X_CD_(into.X_BC.Inverse() * depth.X_BC),
       width_(depth.intrinsics.width),
@@ -25,13 +25,13 @@ DepthRegistration::DepthRegistration(const stack::CameraCalibration& depth, cons
   turned_rays_.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
   for (int v = 0; v < height_; ++v) {
     for (int u = 0; u < width_; ++u) {
-      const base::Vec2 xy = stack::Normalise(depth.intrinsics, base::Vec2(u, v));
+      const base::Vec2 xy = Normalise(depth.intrinsics, base::Vec2(u, v));
       turned_rays_.push_back((X_CD_.q * base::Vec3(xy.x(), xy.y(), 1.0)).cast<float>());
     }
   }
 }
 
-stack::DepthImage DepthRegistration::operator()(const stack::DepthImage& image) const {
+DepthImage DepthRegistration::operator()(const DepthImage& image) const {
   if (image.width != width_ || image.height != height_) {
     throw base::FaultError("registration", "a depth image is not of its camera's size");
   }
@@ -47,7 +47,7 @@ stack::DepthImage DepthRegistration::operator()(const stack::DepthImage& image) 
     const base::Vec3 p_C = z_D * turned_rays_[i].cast<double>() + X_CD_.p;
     const double millimetres = std::round(1e3 * p_C.z());
     if (!(millimetres >= 1 && millimetres <= UINT16_MAX)) continue;
-    const base::Vec2 pixel = stack::Project(into_, p_C);
+    const base::Vec2 pixel = Project(into_, p_C);
     const double half_u = kHalf * magnification_[0] * z_D / p_C.z(), half_v = kHalf * magnification_[1] * z_D / p_C.z();
     const int last_u = from(pixel.x() + half_u, into_.width), last_v = from(pixel.y() + half_v, into_.height);
     for (int v = from(pixel.y() - half_v, into_.height); v < last_v; ++v) {
@@ -65,4 +65,4 @@ stack::DepthImage DepthRegistration::operator()(const stack::DepthImage& image) 
           .millimetres = std::make_shared<const std::vector<std::uint16_t>>(std::move(seen))};
 }
 
-}  // namespace alula::scenarios::dataset
+}  // namespace alula::stack::features

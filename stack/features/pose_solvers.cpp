@@ -1,9 +1,9 @@
-#include "stack/slam/internal/pose_solvers.h"
+#include "stack/features/pose_solvers.h"
 
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 
-namespace alula::stack::slam::internal {
+namespace alula::stack::features {
 
 using base::Mat3;
 using base::Quat;
@@ -60,4 +60,4 @@ std::vector<Transform> SolveTwoPoints(const std::array<PointAndRay, 2>& points, 
   return poses;
 }
 
-}  // namespace alula::stack::slam::internal
+}  // namespace alula::stack::features

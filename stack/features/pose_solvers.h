@@ -5,7 +5,7 @@
 
 #include "base/frames.h"
 
-namespace alula::stack::slam::internal {
+namespace alula::stack::features {
 
 /// A point known in one camera's frame, and where another camera sees it (normalised).
 struct PointAndRay {
@@ -23,4 +23,4 @@ std::vector<base::Transform> SolveThreePoints(const std::array<PointAndRay, 3>& 
 std::vector<base::Transform> SolveTwoPoints(const std::array<PointAndRay, 2>& points, const base::Vec3& up_S,
                                             const base::Vec3& up_T);
 
-}  // namespace alula::stack::slam::internal
+}  // namespace alula::stack::features

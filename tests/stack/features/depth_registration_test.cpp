@@ -1,4 +1,4 @@
-#include "scenarios/dataset/depth_registration.h"
+#include "stack/features/depth_registration.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "stack/interface/camera_model.h"
 #include "tests/scenarios/dataset/synthetic.h"
 
-namespace alula::scenarios::dataset {
+namespace alula::stack::features {
 namespace {
 
 using base::Vec2;
@@ -42,7 +42,8 @@ stack::DepthImage SeePlane(const stack::CameraCalibration& camera, const Vec3& n
 const base::Quat kAhead = base::Quat::Identity();  // B's axes are taken as the cameras'
 
 TEST(DepthRegistration, TheSameCameraSeesTheSame) {
-  stack::CameraCalibration camera = testing::Camera(30, "depth", stack::CameraKind::kDepth);  // with a lens
+  stack::CameraCalibration camera =
+      scenarios::dataset::testing::Camera(30, "depth", stack::CameraKind::kDepth);  // with a lens
   EXPECT_TRUE(Registered(camera, camera));
   base::RandomStream random(1, "depth");
   std::vector<std::uint16_t> depth;
@@ -123,4 +124,4 @@ TEST(DepthRegistration, RefusesAnotherSize) {
 }
 
 }  // namespace
-}  // namespace alula::scenarios::dataset
+}  // namespace alula::stack::features
