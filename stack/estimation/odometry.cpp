@@ -4,10 +4,13 @@
 #include <cmath>
 #include <cstdio>
 #include <ctime>
+#include <limits>
 #include <optional>
 
 #include "base/error.h"
 #include "base/random.h"
+#include "stack/estimation/eye_delay.h"
+#include "stack/estimation/input_guard.h"
 #include "stack/estimation/internal/sliding_window.h"
 #include "stack/estimation/static_initialiser.h"
 #include "stack/estimation/steady_motion.h"
@@ -29,9 +32,12 @@ using base::Vec2;
 using base::Vec3;
 using features::Track;
 
-constexpr double kRansacGate = 3.0;  // px
-constexpr int kRansacTrials = 40;    // two points: 80 % inliers fail with 1e-18
-constexpr int kPoseTrials = 100;     // three points: 60 % inliers fail with 1e-10
+constexpr double kRansacGate = 3.0;       // px
+constexpr int kRansacTrials = 40;         // two points: 80 % inliers fail with 1e-18
+constexpr double kFewAgree = 0.4;         // of the points: fewer, and the gyroscope is asked about
+constexpr double kSaturatedGyro = 1.0;    // rad/s/√Hz: how far a saturated reading may be off
+constexpr double kSaturatedAccel = 10.0;  // m/s²/√Hz
+constexpr int kPoseTrials = 100;          // three points: 60 % inliers fail with 1e-10
 
 /// Processor time of a scope in ms, for profiling alone.
 class StageClock {
@@ -106,18 +112,22 @@ class Odometry::Impl {
         X_OB_start_(X_OB_start),
         tracker_(rig_, config.tracker),
         window_(rig_, imu_.X_BI.Inverse() * sensors_.X_BC, imu_.noise, Adapted(config.window, sensors_), config.lines,
-                gravity_) {}
+                gravity_) {
+    if (rig_.depth == features::DepthSource::kStereo && sensors_.imu) eye_delay_.emplace(rig_);
+  }
 
   FrameResult Process(const FrameInput& input) {
     ++timing_.frames;
     FrameResult result;
     result.seq = input.seq;
     result.reset_counter = reset_counter_;
-    TakeSamples(input);
+    TakeSamples(input, result);
     if (samples_.empty()) {
       result.note = "no inertial samples yet";
     } else if (last_stamp_ && input.stamp <= *last_stamp_) {
       result.note = "image is not newer than the one before";
+    } else if (Frozen(input)) {
+      result.note = "the images are frozen";
     } else if (holding_ && StandsStill(input)) {
       Hold(input, result);
     } else if (running_) {
@@ -128,25 +138,32 @@ class Odometry::Impl {
     } else {
       BeginAtOnce(input, result);
     }
-    if (!last_stamp_ || input.stamp > *last_stamp_) last_stamp_ = input.stamp;
+    if (!last_stamp_ || input.stamp > *last_stamp_) {
+      last_stamp_ = input.stamp;
+      last_left_ = input.left;
+    }
     if (running_) Report(result);
     return result;
   }
 
   const SensorSet& sensors() const { return sensors_; }
-  CalibrationEstimate Rig() const { return window_.Rig(); }
+  CalibrationEstimate Rig() const {
+    CalibrationEstimate rig = window_.Rig();
+    if (eye_delay_) rig.eye_delay = eye_delay_->usual();
+    return rig;
+  }
   OdometryTiming Timing() const { return timing_; }
 
  private:
-  void TakeSamples(const FrameInput& input) {
+  void TakeSamples(const FrameInput& input, FrameResult& result) {
     if (!sensors_.imu) {
       if (!last_stamp_ || input.stamp > *last_stamp_)
         samples_ = SteadySamples(last_stamp_.value_or(input.stamp), input.stamp, rate_);
       return;
     }
-    for (const TimedImu& s : input.imu) {
-      if (samples_.empty() || s.time > samples_.back().time) samples_.push_back(s);
-    }
+    constexpr Time kLongAgo{std::numeric_limits<std::int64_t>::min()};
+    for (const TimedImu& s : Sound(input.imu, samples_.empty() ? kLongAgo : samples_.back().time, result.note))
+      samples_.push_back(s);
   }
 
   // --- beginning --------------------------------------------------------------------------------------------------
@@ -251,6 +268,12 @@ class Odometry::Impl {
     window_covariance_ = window_.NewestCovariance();
   }
 
+  bool Frozen(const FrameInput& input) const {
+    if (!running_ || !sensors_.imu || !Repeats(last_left_, input.left)) return false;
+    const ImuState state = window_.Newest();
+    return TurnOf(Cut(samples_, state.stamp, input.stamp), state.gyro_bias) > config_.guard.frozen_turn;
+  }
+
   // --- flying -----------------------------------------------------------------------------------------------------
 
   void Run(const FrameInput& input, FrameResult& result) {
@@ -265,6 +288,10 @@ class Odometry::Impl {
       return;
     }
 
+    const Saturation saturation = SaturationOf(samples, imu_.noise, config_.guard.saturation);
+    if (saturation.any())
+      result.note = saturation.gyro ? "the gyroscope is saturated" : "the accelerometer is saturated";
+    trusts_turn_ = sensors_.imu && !saturation.gyro;
     std::vector<Track> tracks = Follow(input, predicted, result);
     const bool keyframe = KeyframeDue(tracks, predicted);
     if (keyframe) {
@@ -272,12 +299,13 @@ class Odometry::Impl {
       tracks = tracker_.MakeReference();
       last_keyframe_ = input.stamp;
     }
+    BringEyesTogether(predicted, samples.back().gyro, tracks, result);
     const std::vector<LineSighting> lines = SeeLines(input, predicted, keyframe);
     bool solved = false;
     {
       const StageClock clock(timing_.solve);
       window_.AddFrame(samples, Sightings(tracks), keyframe, lines,
-                       sensors_.imu ? std::nullopt : std::optional(predicted.X_OI));
+                       trusts_turn_ ? std::nullopt : std::optional(predicted.X_OI), NoiseWith(saturation));
       solved = window_.Solve();
       tracker_.Drop(window_.RejectOutliers());
     }
@@ -323,7 +351,7 @@ class Odometry::Impl {
       index.push_back(i);
       points.push_back({*p_O, tracks[i].left});
     }
-    const std::vector<bool> inlier = sensors_.imu ? AgreeingWithTurn(points, X_OC.Inverse(), input.seq)
+    const std::vector<bool> inlier = trusts_turn_ ? AgreeingWithTurn(points, X_OC.Inverse(), input.seq)
                                                   : AgreeingWithPose(points, X_OC.Inverse(), input.seq, predicted);
     std::vector<std::uint64_t> outliers;
     for (std::size_t k = 0; k < index.size(); ++k) {
@@ -337,11 +365,50 @@ class Odometry::Impl {
   }
 
   std::vector<bool> AgreeingWithTurn(const std::vector<features::PointAndRay>& points, const Transform& X_CO,
-                                     std::uint32_t seq) const {
+                                     std::uint32_t seq) {
     std::vector<features::TurnedPoint> turned;
     for (const features::PointAndRay& p : points) turned.push_back({X_CO.q * p.p, p.seen});
     base::RandomStream random(seq, "odometry/translation_ransac");
-    return features::FindTranslation(turned, X_CO.p, kRansacGate / rig_.left.fx, kRansacTrials, random).inlier;
+    features::TranslationResult motion =
+        features::FindTranslation(turned, X_CO.p, kRansacGate / rig_.left.fx, kRansacTrials, random);
+    const int count = static_cast<int>(points.size());
+    if (motion.inliers > kFewAgree * count) {
+      turns_agree_ = turn_watch_.Agree(count, motion.inliers, motion.inliers);
+      return std::move(motion.inlier);
+    }
+    base::RandomStream second(seq, "odometry/pose_ransac");
+    const features::PoseResult pose = features::FindPose(points, X_CO, kRansacGate / rig_.left.fx, kPoseTrials, second);
+    turns_agree_ = turn_watch_.Agree(count, motion.inliers, pose.inliers);
+    return std::move(motion.inlier);
+  }
+
+  /// What a saturated sensor read is less than what was.
+  std::optional<ImuNoise> NoiseWith(const Saturation& saturation) const {
+    if (!saturation.any()) return std::nullopt;
+    ImuNoise noise = window_.noise();
+    if (saturation.gyro) noise.gyro_noise = kSaturatedGyro;
+    noise.accelerometer_noise = kSaturatedAccel;  // turned wrongly where the gyroscope is the one
+    return noise;
+  }
+
+  /// Where the right eye sees later than the left one, what it saw is moved back.
+  void BringEyesTogether(const ImuState& predicted, const Vec3& gyro, std::vector<Track>& tracks, FrameResult& result) {
+    if (!eye_delay_) return;
+    const Vec3 w_I = gyro - predicted.gyro_bias;
+    const Transform X_IR = window_.X_IC() * rig_.X_LR;
+    const base::Quat q_RI = X_IR.q.conjugate();
+    const EyeMotion motion{q_RI * Vec3(predicted.X_OI.q.conjugate() * predicted.v_OI + w_I.cross(X_IR.p)), q_RI * w_I};
+    const double delay = eye_delay_->Update(tracks, motion);
+    if (std::abs(delay) > config_.guard.eye_delay && result.note.empty()) {
+      char text[80];
+      std::snprintf(text, sizeof text, "the right eye sees %.0f ms %s than the left one", 1e3 * std::abs(delay),
+                    delay > 0 ? "later" : "sooner");
+      result.note = text;
+    }
+    if (delay == 0.0 || !config_.guard.compensate_eye_delay) return;
+    for (Track& track : tracks) {
+      if (track.right && track.depth > 0.0) *track.right -= delay * eye_delay_->Velocity(track, motion);
+    }
   }
 
   std::vector<bool> AgreeingWithPose(const std::vector<features::PointAndRay>& points, const Transform& X_CO,
@@ -420,6 +487,7 @@ class Odometry::Impl {
     const double blind = (stamp - last_seeing_).Seconds();
     if (inliers >= c.min_inliers) last_seeing_ = stamp;
     failed_solves_ = solved ? 0 : failed_solves_ + 1;
+    if (!turns_agree_) return "the images turn otherwise than the gyroscope: is the camera's pose on the body right?";
     if (failed_solves_ > 3) return "the solver failed repeatedly";
     if (blind > (sensors_.imu ? c.max_blind_time : config_.motion.max_blind_time)) return "blind for too long";
     if (state.gyro_bias.norm() > c.max_gyro_bias) return "gyroscope bias out of range";
@@ -469,6 +537,8 @@ class Odometry::Impl {
   void BeginAnew(const ImuState& state, const StartSigmas& sigmas, const std::string& why, FrameResult& result) {
     Begin(state, sigmas);
     failed_solves_ = 0;
+    turn_watch_.Restart();
+    turns_agree_ = true;
     ++reset_counter_;
     result.keyframe = true;
     result.window.clear();
@@ -528,7 +598,12 @@ class Odometry::Impl {
   features::StereoTracker tracker_;
   SlidingWindow window_;
   std::vector<TimedImu> samples_;
+  std::optional<EyeDelay> eye_delay_;  // of a stereo pair
+  TurnWatch turn_watch_;
+  bool turns_agree_ = true;
+  bool trusts_turn_ = true;  // the gyroscope's, for this frame
   std::optional<Time> last_stamp_, still_since_;
+  Image last_left_;
   bool running_ = false;
   bool holding_ = false;       // one camera that has not moved yet
   std::vector<Track> tracks_;  // of an image in which it may hold

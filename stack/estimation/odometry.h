@@ -71,6 +71,7 @@ struct CalibrationEstimate {
   base::Vec3 camera_rotation = base::Vec3::Zero();  // rad, in the left camera's axes
   base::Vec2 eye_rotation = base::Vec2::Zero();     // rad about x and y of the right camera
   double time_offset = 0.0;                         // s, added to the image stamps
+  double eye_delay = 0.0;                           // s, of the right eye; as usual of late
 };
 
 /// Processor time of the calling thread by stage in ms, for profiling; never enters a result.

@@ -70,6 +70,18 @@ void Describe(base::Description& d, KeyframeConfig& c) {
   d.Field("max_age", c.max_age, {.unit = "s", .meaning = "of the last keyframe", .min = 0.1});
 }
 
+void Describe(base::Description& d, GuardConfig& c) {
+  d.Field("saturation", c.saturation,
+          {.meaning = "of the IMU's range, from which a reading counts for little", .min = 0.5, .max = 1});
+  d.Field("frozen_turn", c.frozen_turn,
+          {.unit = "rad",
+           .meaning = "by the gyroscope while an image repeats itself: it is frozen",
+           .min = 1e-4,
+           .max = 1});
+  d.Field("eye_delay", c.eye_delay, {.unit = "s", .meaning = "between the eyes that is told", .min = 1e-4, .max = 1});
+  d.Field("compensate_eye_delay", c.compensate_eye_delay, {.meaning = "move what the right eye saw back by it"});
+}
+
 void Describe(base::Description& d, FailureConfig& c) {
   d.Field("max_blind_time", c.max_blind_time, {.unit = "s", .meaning = "with too few inliers", .min = 0.1});
   d.Field("max_imu_gap", c.max_imu_gap,
@@ -89,6 +101,7 @@ void Describe(base::Description& d, OdometryConfig& c) {
   d.Field("motion", c.motion, {.meaning = "what is expected of motion without an IMU"});
   d.Field("lines", c.lines, {.meaning = "straight edges beside corners"});
   d.Field("keyframe", c.keyframe, {.meaning = "when a keyframe is due"});
+  d.Field("guard", c.guard, {.meaning = "signs that what comes in cannot be believed"});
   d.Field("failure", c.failure, {.meaning = "signs that the estimate has failed"});
 }
 

@@ -69,6 +69,14 @@ struct KeyframeConfig {
   double max_age = 5.0;  // s
 };
 
+/// Signs that what comes in cannot be believed.
+struct GuardConfig {
+  double saturation = 0.98;   // of the IMU's range
+  double frozen_turn = 0.01;  // rad that the gyroscope reads while the image stays the same to the last bit
+  double eye_delay = 0.003;   // s between the eyes that are worth a word
+  bool compensate_eye_delay = true;
+};
+
 /// Signs that the estimate has failed.
 struct FailureConfig {
   double max_blind_time = 4.0;  // s with fewer than `min_inliers`, or without images
@@ -88,6 +96,7 @@ struct OdometryConfig {
   MotionConfig motion;
   LinesConfig lines;
   KeyframeConfig keyframe;
+  GuardConfig guard;
   FailureConfig failure;
 };
 
@@ -96,6 +105,7 @@ void Describe(base::Description& d, WindowConfig& c);
 void Describe(base::Description& d, MotionConfig& c);
 void Describe(base::Description& d, LinesConfig& c);
 void Describe(base::Description& d, KeyframeConfig& c);
+void Describe(base::Description& d, GuardConfig& c);
 void Describe(base::Description& d, FailureConfig& c);
 void Describe(base::Description& d, OdometryConfig& c);
 

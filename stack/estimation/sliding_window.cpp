@@ -109,12 +109,12 @@ SlidingWindow::Frame& SlidingWindow::AppendFrame(Time stamp, bool keyframe, cons
 
 void SlidingWindow::AddFrame(const std::vector<TimedImu>& samples, const std::vector<Sighting>& sightings,
                              bool keyframe, const std::vector<LineSighting>& lines,
-                             const std::optional<Transform>& X_OI) {
+                             const std::optional<Transform>& X_OI, const std::optional<ImuNoise>& noise) {
   const ImuState before = Newest();
   ImuState predicted = Propagate(before, samples, gravity_);
   if (X_OI) predicted.X_OI = *X_OI;
   Frame& frame = AppendFrame(predicted.stamp, keyframe, samples.back().gyro);
-  frame.integral = std::make_unique<ImuPreintegration>(noise_, before.gyro_bias, before.accel_bias);
+  frame.integral = std::make_unique<ImuPreintegration>(noise.value_or(noise_), before.gyro_bias, before.accel_bias);
   frame.integral->Append(samples);
   WriteState(frame.slot, predicted);
   RefreshModels();

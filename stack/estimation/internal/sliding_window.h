@@ -84,9 +84,10 @@ class SlidingWindow {
   void Start(const ImuState& state, const StartSigmas& sigmas, const std::vector<Sighting>& sightings,
              const std::vector<LineSighting>& lines = {});
   /// Adds a state at the end of `samples`, which begin at the newest state's stamp. `X_OI`: where the solution is
-  /// looked for, in place of the samples' prediction.
+  /// looked for, in place of the samples' prediction. `noise`: of these samples, where it is not as calibrated.
   void AddFrame(const std::vector<TimedImu>& samples, const std::vector<Sighting>& sightings, bool keyframe,
-                const std::vector<LineSighting>& lines = {}, const std::optional<base::Transform>& X_OI = std::nullopt);
+                const std::vector<LineSighting>& lines = {}, const std::optional<base::Transform>& X_OI = std::nullopt,
+                const std::optional<ImuNoise>& noise = std::nullopt);
   /// Returns false where the solver failed; the states are as before then.
   bool Solve();
   /// Drops sights that do not fit and returns the tracks that should be followed no more.
@@ -107,6 +108,7 @@ class SlidingWindow {
   CalibrationEstimate Rig() const;
   /// Left camera in the IMU frame, with the refinement.
   base::Transform X_IC() const;
+  const ImuNoise& noise() const { return noise_; }  // as it is taken for
   std::size_t frames() const { return frames_.size(); }
   std::size_t landmarks() const { return landmarks_.size(); }
   /// What Solve hands to a solver, where the parameters stand now; valid until the window changes.
