@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cstring>
 
-#include "stack/estimation/internal/sliding_window.h"
-
 namespace alula::stack::estimation {
 
 Saturation SaturationOf(const std::vector<TimedImu>& samples, const ImuNoise& range, double share) {
@@ -42,19 +40,16 @@ bool Repeats(const Image& a, const Image& b) {
   return true;
 }
 
-double TurnOf(const std::vector<TimedImu>& samples, const base::Vec3& gyro_bias) {
-  ImuState from;
-  from.stamp = samples.front().time;
-  from.gyro_bias = gyro_bias;
-  return base::Log(Propagate(from, samples).X_OI.q).norm();
-}
-
-bool TurnWatch::Agree(int points, int by_turn, int by_pose) {
-  constexpr int kLeastPoints = 15, kStrikes = 6;
-  constexpr double kFew = 0.4, kMany = 0.7;
-  const bool differ = points >= kLeastPoints && by_turn < kFew * points && by_pose > kMany * points;
-  strikes_ = differ ? strikes_ + 1 : std::max(0, strikes_ - 1);
-  return strikes_ < kStrikes;
+MotionWatch::Verdict MotionWatch::Update(int points, int by_turn, int by_pose) {
+  constexpr int kLeastPoints = 15, kMisfits = 20;
+  constexpr double kMemory = 0.8;                               // an image: five of them count
+  constexpr double kFew = 0.45, kVeryFew = 0.4, kMany = 0.85;  // shares
+  if (points < kLeastPoints) return Verdict::kFits;
+  by_turn_ = kMemory * by_turn_ + (1.0 - kMemory) * by_turn / points;
+  by_pose_ = kMemory * by_pose_ + (1.0 - kMemory) * std::max(by_turn, by_pose) / points;
+  if (by_turn_ < kFew && by_pose_ > kMany) return Verdict::kTurnsOtherwise;
+  misfits_ = by_pose_ < kVeryFew ? misfits_ + 1 : 0;
+  return misfits_ < kMisfits ? Verdict::kFits : Verdict::kFitsNothing;
 }
 
 }  // namespace alula::stack::estimation

@@ -22,18 +22,20 @@ std::vector<TimedImu> Sound(const std::vector<TimedImu>& samples, base::Time aft
 /// move.
 bool Repeats(const Image& a, const Image& b);
 
-/// Turn between two samples' times, rad.
-double TurnOf(const std::vector<TimedImu>& samples, const base::Vec3& gyro_bias);
-
-/// Remembers whether images and gyroscope agree on how the camera turned.
-class TurnWatch {
+/// Remembers whether what is seen fits how the body is thought to have moved. Points that have just begun always fit,
+/// so one image alone says little.
+class MotionWatch {
  public:
-  /// `by_turn` of `points` agree with the gyroscope's turn, `by_pose` with some pose. False: too often too few did.
-  bool Agree(int points, int by_turn, int by_pose);
-  void Restart() { strikes_ = 0; }
+  enum class Verdict { kFits, kTurnsOtherwise, kFitsNothing };
+
+  /// Of `points` that were known before, `by_turn` agree with the gyroscope's turn and some translation, `by_pose` with
+  /// some pose.
+  Verdict Update(int points, int by_turn, int by_pose);
+  void Restart() { *this = {}; }
 
  private:
-  int strikes_ = 0;
+  double by_turn_ = 1.0, by_pose_ = 1.0;  // shares of the points, of late
+  int misfits_ = 0;                       // images in a row
 };
 
 }  // namespace alula::stack::estimation

@@ -35,6 +35,7 @@ using features::Track;
 constexpr double kRansacGate = 3.0;       // px
 constexpr int kRansacTrials = 40;         // two points: 80 % inliers fail with 1e-18
 constexpr double kFewAgree = 0.4;         // of the points: fewer, and the gyroscope is asked about
+constexpr double kUnsureOfBias = 0.005;   // rad/s, of the gyroscope's
 constexpr double kSaturatedGyro = 1.0;    // rad/s/√Hz: how far a saturated reading may be off
 constexpr double kSaturatedAccel = 10.0;  // m/s²/√Hz
 constexpr int kPoseTrials = 100;          // three points: 60 % inliers fail with 1e-10
@@ -126,8 +127,6 @@ class Odometry::Impl {
       result.note = "no inertial samples yet";
     } else if (last_stamp_ && input.stamp <= *last_stamp_) {
       result.note = "image is not newer than the one before";
-    } else if (Frozen(input)) {
-      result.note = "the images are frozen";
     } else if (holding_ && StandsStill(input)) {
       Hold(input, result);
     } else if (running_) {
@@ -268,13 +267,21 @@ class Odometry::Impl {
     window_covariance_ = window_.NewestCovariance();
   }
 
-  bool Frozen(const FrameInput& input) const {
-    if (!running_ || !sensors_.imu || !Repeats(last_left_, input.left)) return false;
-    const ImuState state = window_.Newest();
-    return TurnOf(Cut(samples_, state.stamp, input.stamp), state.gyro_bias) > config_.guard.frozen_turn;
-  }
 
   // --- flying -----------------------------------------------------------------------------------------------------
+
+  /// The same image again, and it showed something, though by the gyroscope the body has turned since. How far it went
+  /// is no such sign: a wrong speed would be believed for ever.
+  bool Frozen(const FrameInput& input, const ImuState& predicted) {
+    if (!sensors_.imu || last_tracked_ == 0 || !Repeats(last_left_, input.left)) {
+      first_of_repeated_.reset();
+      return false;
+    }
+    if (!first_of_repeated_) first_of_repeated_ = window_.Newest();
+    const double turn = base::Log(first_of_repeated_->X_OI.q.conjugate() * predicted.X_OI.q).norm();
+    const double unsure = kUnsureOfBias * (predicted.stamp - first_of_repeated_->stamp).Seconds();
+    return turn > config_.guard.frozen_turn + unsure;
+  }
 
   void Run(const FrameInput& input, FrameResult& result) {
     const ImuState before = window_.Newest();
@@ -292,15 +299,17 @@ class Odometry::Impl {
     if (saturation.any())
       result.note = saturation.gyro ? "the gyroscope is saturated" : "the accelerometer is saturated";
     trusts_turn_ = sensors_.imu && !saturation.gyro;
-    std::vector<Track> tracks = Follow(input, predicted, result);
-    const bool keyframe = KeyframeDue(tracks, predicted);
+    const bool frozen = Frozen(input, predicted);
+    if (frozen) result.note = "the images are frozen";
+    std::vector<Track> tracks = frozen ? std::vector<Track>() : Follow(input, predicted, result);
+    const bool keyframe = !frozen && KeyframeDue(tracks, predicted);
     if (keyframe) {
       const StageClock clock(timing_.detect);
       tracks = tracker_.MakeReference();
       last_keyframe_ = input.stamp;
     }
     BringEyesTogether(predicted, samples.back().gyro, tracks, result);
-    const std::vector<LineSighting> lines = SeeLines(input, predicted, keyframe);
+    const std::vector<LineSighting> lines = frozen ? std::vector<LineSighting>() : SeeLines(input, predicted, keyframe);
     bool solved = false;
     {
       const StageClock clock(timing_.solve);
@@ -341,7 +350,7 @@ class Odometry::Impl {
     const StageClock clock(timing_.track);
     const Transform X_OC = predicted.X_OI * window_.X_IC();
     std::vector<Track> tracks = tracker_.Follow(input.left, input.right, X_OC_reference_.Inverse() * X_OC, input.depth);
-    result.tracked = static_cast<int>(tracks.size());
+    result.tracked = last_tracked_ = static_cast<int>(tracks.size());
 
     std::vector<features::PointAndRay> points;
     std::vector<std::size_t> index;
@@ -373,12 +382,12 @@ class Odometry::Impl {
         features::FindTranslation(turned, X_CO.p, kRansacGate / rig_.left.fx, kRansacTrials, random);
     const int count = static_cast<int>(points.size());
     if (motion.inliers > kFewAgree * count) {
-      turns_agree_ = turn_watch_.Agree(count, motion.inliers, motion.inliers);
+      verdict_ = watch_.Update(count, motion.inliers, motion.inliers);
       return std::move(motion.inlier);
     }
     base::RandomStream second(seq, "odometry/pose_ransac");
     const features::PoseResult pose = features::FindPose(points, X_CO, kRansacGate / rig_.left.fx, kPoseTrials, second);
-    turns_agree_ = turn_watch_.Agree(count, motion.inliers, pose.inliers);
+    verdict_ = watch_.Update(count, motion.inliers, pose.inliers);
     return std::move(motion.inlier);
   }
 
@@ -401,8 +410,8 @@ class Odometry::Impl {
     const double delay = eye_delay_->Update(tracks, motion);
     if (std::abs(delay) > config_.guard.eye_delay && result.note.empty()) {
       char text[80];
-      std::snprintf(text, sizeof text, "the right eye sees %.0f ms %s than the left one", 1e3 * std::abs(delay),
-                    delay > 0 ? "later" : "sooner");
+      std::snprintf(text, sizeof text, "the right eye sees about %.0f ms %s than the left one",
+                    5.0 * std::round(200.0 * std::abs(delay)), delay > 0 ? "later" : "sooner");
       result.note = text;
     }
     if (delay == 0.0 || !config_.guard.compensate_eye_delay) return;
@@ -487,7 +496,9 @@ class Odometry::Impl {
     const double blind = (stamp - last_seeing_).Seconds();
     if (inliers >= c.min_inliers) last_seeing_ = stamp;
     failed_solves_ = solved ? 0 : failed_solves_ + 1;
-    if (!turns_agree_) return "the images turn otherwise than the gyroscope: is the camera's pose on the body right?";
+    if (verdict_ == MotionWatch::Verdict::kFitsNothing) return "what the images show fits no motion";
+    if (verdict_ == MotionWatch::Verdict::kTurnsOtherwise)
+      return "the images turn otherwise than the gyroscope: is the camera's pose on the body right?";
     if (failed_solves_ > 3) return "the solver failed repeatedly";
     if (blind > (sensors_.imu ? c.max_blind_time : config_.motion.max_blind_time)) return "blind for too long";
     if (state.gyro_bias.norm() > c.max_gyro_bias) return "gyroscope bias out of range";
@@ -537,8 +548,8 @@ class Odometry::Impl {
   void BeginAnew(const ImuState& state, const StartSigmas& sigmas, const std::string& why, FrameResult& result) {
     Begin(state, sigmas);
     failed_solves_ = 0;
-    turn_watch_.Restart();
-    turns_agree_ = true;
+    watch_.Restart();
+    verdict_ = MotionWatch::Verdict::kFits;
     ++reset_counter_;
     result.keyframe = true;
     result.window.clear();
@@ -599,11 +610,13 @@ class Odometry::Impl {
   SlidingWindow window_;
   std::vector<TimedImu> samples_;
   std::optional<EyeDelay> eye_delay_;  // of a stereo pair
-  TurnWatch turn_watch_;
-  bool turns_agree_ = true;
+  MotionWatch watch_;
+  MotionWatch::Verdict verdict_ = MotionWatch::Verdict::kFits;
   bool trusts_turn_ = true;  // the gyroscope's, for this frame
   std::optional<Time> last_stamp_, still_since_;
   Image last_left_;
+  int last_tracked_ = 0;                       // of the last image that was not frozen
+  std::optional<ImuState> first_of_repeated_;  // when the image was taken that repeats itself
   bool running_ = false;
   bool holding_ = false;       // one camera that has not moved yet
   std::vector<Track> tracks_;  // of an image in which it may hold

@@ -75,8 +75,8 @@ void Describe(base::Description& d, GuardConfig& c) {
           {.meaning = "of the IMU's range, from which a reading counts for little", .min = 0.5, .max = 1});
   d.Field("frozen_turn", c.frozen_turn,
           {.unit = "rad",
-           .meaning = "by the gyroscope while an image repeats itself: it is frozen",
-           .min = 1e-4,
+           .meaning = "turn of the body while an image repeats itself from which it counts as frozen",
+           .min = 1e-5,
            .max = 1});
   d.Field("eye_delay", c.eye_delay, {.unit = "s", .meaning = "between the eyes that is told", .min = 1e-4, .max = 1});
   d.Field("compensate_eye_delay", c.compensate_eye_delay, {.meaning = "move what the right eye saw back by it"});

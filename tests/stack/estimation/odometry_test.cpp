@@ -6,50 +6,18 @@
 #include <opencv2/core.hpp>
 
 #include "base/hash.h"
-#include "tests/stack/estimation/flight.h"
+#include "tests/stack/estimation/wall.h"
 
 namespace alula::stack::estimation::test {
 namespace {
 
-/// A wall of random blobs 3.5 m away (12 px of disparity), moved sideways by `shift` px.
-Image Wall(double shift) {
-  base::RandomStream random(5, "test/wall");
-  std::vector<float> grey(640 * 480, 90.0F);
-  for (int i = 0; i < 1500; ++i) {
-    const double u = random.Uniform(-40, 680) - shift, v = random.Uniform(0, 480), r = random.Uniform(2, 6);
-    const double a = random.Uniform(-70, 70);
-    for (int y = std::max(0, int(v - 3 * r)); y <= std::min(479, int(v + 3 * r)); ++y) {
-      for (int x = std::max(0, int(u - 3 * r)); x <= std::min(639, int(u + 3 * r)); ++x) {
-        const double d2 = ((x - u) * (x - u) + (y - v) * (y - v)) / (r * r);
-        grey[static_cast<std::size_t>(y * 640 + x)] += static_cast<float>(a * std::exp(-d2));
-      }
-    }
-  }
-  auto bytes = std::make_shared<std::vector<std::uint8_t>>(grey.size());
-  for (std::size_t i = 0; i < grey.size(); ++i) {
-    (*bytes)[i] = static_cast<std::uint8_t>(std::lround(std::clamp(grey[i], 0.0F, 255.0F)));
-  }
-  Image image;
-  image.width = image.stride = 640;
-  image.height = 480;
-  image.bytes = bytes;
-  return image;
-}
-
-Image Black() {
-  Image image;
-  image.width = image.stride = 640;
-  image.height = 480;
-  image.bytes = std::make_shared<const std::vector<std::uint8_t>>(640 * 480, 0);
-  return image;
-}
-
 /// A vehicle that stands before the wall; frame by frame.
 class Standing : public ::testing::Test {
  protected:
-  Standing() : odometry(TrueCalibration(), {}, {base::FromYaw(1.0), Vec3(1, 2, 3)}), left(Wall(0)), right(Wall(12)) {
-    cv::setNumThreads(1);
-  }
+  Standing() : odometry(TrueCalibration(), {}, {base::FromYaw(1.0), Vec3(1, 2, 3)}) { cv::setNumThreads(1); }
+  /// A camera 3.5 m before the wall and `x` m to the right.
+  static Image SeenFrom(double x) { return Wall().Seen(kCamera, {Quat::Identity(), Vec3(x, 0, -Wall::kDistance)}); }
+  static Image Black() { return Wall::Black(kCamera); }
   FrameResult Next(const Image& l, const Image& r) {
     FrameInput input;
     input.seq = seq;
@@ -63,8 +31,10 @@ class Standing : public ::testing::Test {
     }
     return odometry.Process(input);
   }
+  inline static const CameraIntrinsics kCamera = TrueCalibration().cameras[0].intrinsics;
+  static constexpr double kBaseline = 0.11;  // m
   Odometry odometry;
-  Image left, right;
+  Image left = SeenFrom(0), right = SeenFrom(kBaseline);
   base::RandomStream random{3, "test/standing"};
   std::uint32_t seq = 0;
   Time next_imu;
@@ -72,7 +42,7 @@ class Standing : public ::testing::Test {
 
 TEST_F(Standing, WaitsForStandstillThenStartsAtThePoseThatItWasTold) {
   for (int i = 0; i < 10; ++i) {
-    const FrameResult r = Next(Wall(2.0 * i), Wall(2.0 * i + 12));
+    const FrameResult r = Next(SeenFrom(0.02 * i), SeenFrom(0.02 * i + kBaseline));
     EXPECT_FALSE(r.initialised);
     EXPECT_EQ(r.note, i == 0 ? "waiting for standstill" : "moving");
   }
@@ -133,11 +103,10 @@ TEST_F(Standing, IgnoresAnImageThatIsNotNewer) {
   EXPECT_EQ(r.state.X_OB.p, before.p);
 }
 
-TEST(Odometry, GivesTheSameBitsTwice) {
-  const auto run = [] {
+TEST_F(Standing, GivesTheSameBitsTwice) {
+  const auto run = [this] {
     base::RollingHash hash;
-    Odometry odometry(TrueCalibration(), {}, {});
-    const Image left = Wall(0), right = Wall(12);
+    Odometry fresh(TrueCalibration(), {}, {});
     for (int i = 0; i < 60; ++i) {
       FrameInput input;
       input.seq = static_cast<std::uint32_t>(i);
@@ -148,7 +117,7 @@ TEST(Odometry, GivesTheSameBitsTwice) {
         input.imu.push_back({Time{50'000'000LL * (i - 1) + 5'000'000LL * (k + 1)}, Vec3(1e-3 * (k - 4.5), 0, 0),
                              Vec3(0.01 * (k % 3), 0, base::kGravity)});
       }
-      const FrameResult r = odometry.Process(input);
+      const FrameResult r = fresh.Process(input);
       hash.Add(r.state.X_OB);
       hash.Add(r.state.v_OB);
       for (int d = 0; d < 6; ++d) hash.Add(r.pose_covariance(d, d));

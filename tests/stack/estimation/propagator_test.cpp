@@ -86,14 +86,10 @@ TEST(StaticInitialiser, FindsTiltHeadingAndGyroscopeBias) {
   EXPECT_FALSE(FromStandstill(samples, q_BI, 0.0).has_value());
 }
 
-TEST(Odometry, RefusesACalibrationWithoutStereoOrImu) {
+TEST(ImuPropagator, RefusesACalibrationWithoutAnImu) {
   Calibration c = TrueCalibration();
   c.imu.reset();
-  EXPECT_THROW(Odometry(c, {}, {}), base::InputError);
   EXPECT_THROW(ImuPropagator{c}, base::InputError);
-  c = TrueCalibration();
-  c.stereo.reset();
-  EXPECT_THROW(Odometry(c, {}, {}), base::InputError);
 }
 
 }  // namespace

@@ -27,7 +27,7 @@ Map SomeMap() {
     k->stamp = base::Time{1'000'000'000LL * i};
     k->X_OB = {base::Exp(vector()), vector()};
     k->X_MB = {base::Exp(vector()), vector()};
-    k->up_B = vector().normalized();
+    if (i != 3) k->up_B = vector().normalized();  // one that knows no vertical
     for (int f = 0; f < 5; ++f) {
       PlacePoint point;
       point.pixel = vector().head<2>();
@@ -78,6 +78,8 @@ TEST(MapFile, ComesBackAsItWasWithoutGaps) {
   EXPECT_EQ(is.view.points[2].p_C, was.view.points[2].p_C);
   EXPECT_EQ(is.right[1].has_value(), was.right[1].has_value());
   EXPECT_EQ(is.view.lines[0].ends_C, was.view.lines[0].ends_C);
+  EXPECT_EQ(is.up_B, was.up_B);
+  EXPECT_FALSE(read.keyframe(2).up_B);
   EXPECT_EQ(is.landmarks, (std::vector<int>{0, -1, 1, 2, -1}));
   EXPECT_EQ(read.landmark(2).p_M, map.landmark(3).p_M);
   EXPECT_EQ(read.landmark(3).part, 1);
