@@ -27,8 +27,7 @@ void CatchInterrupts() {
 }
 
 /// The flying process's side: the verdict as JSON, a zero byte, the note.
-std::string FlyHere(const Scenario& scenario, RunOptions options, bool show, Pulse& pulse,
-                    const FlightNote& note) {
+std::string FlyHere(const Scenario& scenario, RunOptions options, bool show, Pulse& pulse, const FlightNote& note) {
   if (options.out) LeaveStackTraceIn(sim::RunFolder::PartialOf(*options.out, ::getpid()) / "crash.txt");
   CatchInterrupts();
   Progress progress(scenario.name, LimitOf(scenario.config), show);
@@ -50,8 +49,7 @@ RunOptions OptionsOf(const CommandLine& line) {
   return options;
 }
 
-FlightEnd Fly(const Scenario& scenario, const RunOptions& options, const CommandLine& line,
-              const FlightNote& note) {
+FlightEnd Fly(const Scenario& scenario, const RunOptions& options, const CommandLine& line, const FlightNote& note) {
   const auto begin = std::chrono::steady_clock::now();  // for reports
   const Ending ending = Supervise(line.limits, [&](Pulse& pulse) {
     Report report;

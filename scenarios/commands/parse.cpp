@@ -199,7 +199,8 @@ SlamVerb AddSlam(CLI::App& app, CommandLine& line, Raw& raw) {
   SlamVerb slam;
   CLI::App* verb = slam.estimate = app.add_subcommand(
       "slam", "run the estimator on recorded data, or along a flight as it is rendered, and measure its trajectory");
-  verb->add_option("sources", line.names, "folders of recordings (EuRoC's, KITTI's or TUM's layout), scenarios of the catalog or files");
+  verb->add_option("sources", line.names,
+                   "folders of recordings (EuRoC's, KITTI's or TUM's layout), scenarios of the catalog or files");
   verb->add_option(
           "--variant", line.variants,
           "NAME or NAME:KEY=VALUE,KEY=VALUE: an estimator with these keys of `stack` changed; all variants see "

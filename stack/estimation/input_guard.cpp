@@ -42,7 +42,7 @@ bool Repeats(const Image& a, const Image& b) {
 
 MotionWatch::Verdict MotionWatch::Update(int points, int by_turn, int by_pose) {
   constexpr int kLeastPoints = 15, kMisfits = 20;
-  constexpr double kMemory = 0.8;                               // an image: five of them count
+  constexpr double kMemory = 0.8;                              // an image: five of them count
   constexpr double kFew = 0.45, kVeryFew = 0.4, kMany = 0.85;  // shares
   if (points < kLeastPoints) return Verdict::kFits;
   by_turn_ = kMemory * by_turn_ + (1.0 - kMemory) * by_turn / points;

@@ -267,7 +267,6 @@ class Odometry::Impl {
     window_covariance_ = window_.NewestCovariance();
   }
 
-
   // --- flying -----------------------------------------------------------------------------------------------------
 
   /// The same image again, and it showed something, though by the gyroscope the body has turned since. How far it went

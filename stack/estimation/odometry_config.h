@@ -71,9 +71,9 @@ struct KeyframeConfig {
 
 /// Signs that what comes in cannot be believed.
 struct GuardConfig {
-  double saturation = 0.98;   // of the IMU's range
+  double saturation = 0.98;    // of the IMU's range
   double frozen_turn = 0.005;  // rad that the body turned while the image stayed the same to the last bit
-  double eye_delay = 0.003;   // s between the eyes that are worth a word
+  double eye_delay = 0.003;    // s between the eyes that are worth a word
   bool compensate_eye_delay = true;
 };
 

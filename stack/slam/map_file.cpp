@@ -83,6 +83,7 @@ void Visit(Archive& a, std::optional<T>& value) {
   Visit(a, there);
   if (there > 1) throw Broken{"it is no map"};
   if constexpr (Archive::kReads) {
+    value.reset();
     if (there != 0) value.emplace();
   }
   if (value) Visit(a, *value);

@@ -24,7 +24,7 @@ nlohmann::json Figures(const std::string& folder, const Variant& variant) {
   return figures;
 }
 
-/// A car that drives 50 m a … with a pair of cameras alone.
+/// A car with a pair of cameras and nothing else.
 TEST(RecordedSlam, StereoAloneOnAStreet) {
   const auto folder = DataFolder("kitti_stereo");
   if (!folder) GTEST_SKIP() << "ALULA_DATA is not set: no kitti_stereo";

@@ -43,7 +43,8 @@ class Swing {
   /// 0 at rest, 2 at the far end of a swing; no jump in acceleration.
   static double Rise(double s, double rate) {
     const double blend = std::clamp(s, 0.0, 1.0);
-    return blend * blend * blend * (10.0 - 15.0 * blend + 6.0 * blend * blend) * (1.0 - std::cos(2.0 * M_PI * rate * s));
+    return blend * blend * blend * (10.0 - 15.0 * blend + 6.0 * blend * blend) *
+           (1.0 - std::cos(2.0 * M_PI * rate * s));
   }
 };
 
@@ -112,8 +113,7 @@ Flown Fly(const Setting& s) {
     const Transform X_VL = X_VW * swing.At(t).X_WB * truth.cameras[0].X_BC;
     const CameraIntrinsics& camera = truth.cameras[0].intrinsics;
     input.left = WithNoise(wall.Seen(camera, X_VL), random);
-    if (s.right)
-      input.right = wall.Seen(camera, X_VW * swing.At(t + s.eye_delay).X_WB * truth.cameras[1].X_BC);
+    if (s.right) input.right = wall.Seen(camera, X_VW * swing.At(t + s.eye_delay).X_WB * truth.cameras[1].X_BC);
     if (s.depth) input.depth = Wall::Depth(camera, X_VL);
     if (s.frozen.contains(i)) {
       input.left = last.left;
@@ -168,9 +168,7 @@ void BeginsAtOnceAndFollows(const Flown& flown, double metres) {
   EXPECT_GT(flown.results.back().inliers, 60);
 }
 
-TEST(SensorSets, APairNeedsNoImu) {
-  BeginsAtOnceAndFollows(Fly({.imu = false, .told = WithoutImu()}), 0.03);
-}
+TEST(SensorSets, APairNeedsNoImu) { BeginsAtOnceAndFollows(Fly({.imu = false, .told = WithoutImu()}), 0.03); }
 
 TEST(SensorSets, ADepthCameraNeedsNoImu) {
   BeginsAtOnceAndFollows(Fly({.right = false, .depth = true, .imu = false, .told = DepthCamera(false)}), 0.03);
@@ -285,7 +283,8 @@ TEST(InputGuards, EyesThatSeeAtDifferentTimesAreFoundOut) {
 /// A camera that is mounted upside down against what the calibration says.
 TEST(InputGuards, AWrongSignOfTheExtrinsicsIsSaid) {
   Calibration told = TrueCalibration();
-  for (CameraCalibration& camera : told.cameras) camera.X_BC = camera.X_BC * Transform{base::Exp(Vec3(0, 0, M_PI)), {0, 0, 0}};
+  for (CameraCalibration& camera : told.cameras)
+    camera.X_BC = camera.X_BC * Transform{base::Exp(Vec3(0, 0, M_PI)), {0, 0, 0}};
   // The pair keeps its geometry: the eye that was left is right.
   const Transform X_LR = TrueCalibration().cameras[0].X_BC.Inverse() * TrueCalibration().cameras[1].X_BC;
   told.cameras[1].X_BC = told.cameras[0].X_BC * X_LR;

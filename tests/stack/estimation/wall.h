@@ -45,9 +45,8 @@ class Wall {
       }
     }
     auto bytes = std::make_shared<std::vector<std::uint8_t>>(grey.size());
-    std::transform(grey.begin(), grey.end(), bytes->begin(), [](float g) {
-      return static_cast<std::uint8_t>(std::lround(std::clamp(g, 0.0F, 255.0F)));
-    });
+    std::transform(grey.begin(), grey.end(), bytes->begin(),
+                   [](float g) { return static_cast<std::uint8_t>(std::lround(std::clamp(g, 0.0F, 255.0F))); });
     return ImageOf(camera, bytes);
   }
 

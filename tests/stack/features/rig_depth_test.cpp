@@ -29,7 +29,7 @@ TEST(DepthAt, IsThatOfTheNeighbourhood) {
   EXPECT_EQ(DepthAt(Flat(2500), {0.0, 0.0}), std::nullopt);  // a corner of the image has four pixels around it
   EXPECT_EQ(DepthAt(Flat(2500), {5.0, 0.0}), 2.5);           // its edge six
   EXPECT_EQ(DepthAt(Flat(0), {7, 3}), std::nullopt);
-  EXPECT_EQ(DepthAt(With(Flat(2500), {{7, 3}, {8, 3}}, 0), {7, 3}), 2.5);                  // holes
+  EXPECT_EQ(DepthAt(With(Flat(2500), {{7, 3}, {8, 3}}, 0), {7, 3}), 2.5);                      // holes
   EXPECT_EQ(DepthAt(With(Flat(2500), {{8, 2}, {8, 3}, {8, 4}}, 3000), {7, 3}), std::nullopt);  // an edge runs by
 }
 

@@ -27,7 +27,8 @@ Map SomeMap() {
     k->stamp = base::Time{1'000'000'000LL * i};
     k->X_OB = {base::Exp(vector()), vector()};
     k->X_MB = {base::Exp(vector()), vector()};
-    if (i != 3) k->up_B = vector().normalized();  // one that knows no vertical
+    k->up_B.reset();
+    if (i != 3) k->up_B = vector().normalized();  // one knows no vertical
     for (int f = 0; f < 5; ++f) {
       PlacePoint point;
       point.pixel = vector().head<2>();
